@@ -1,5 +1,4 @@
-// CLI11 parses; what it throws becomes one line and exit code 2. A wrong command or option name gets a
-// suggestion.
+// CLI11 parses; what it throws becomes one line and exit code 2 (app/wrong_words.h).
 #include "app/command_line.h"
 
 #include <fmt/format.h>
@@ -24,6 +23,7 @@
 #include "app/process/interrupt.h"
 #include "app/process/many_commands.h"
 #include "app/session.h"
+#include "app/wrong_words.h"
 #include "compare/result/option_names.h"
 #include "scene/base/expected.h"
 #include "scene/base/many_commands.h"
@@ -44,12 +44,6 @@ std::string command_line_text(int argc, const char* const* argv) {
   return text;
 }
 
-std::vector<std::string_view> command_names(const CLI::App& program) {
-  std::vector<std::string_view> names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  return names;
-}
-
 int usage_error(const std::string& text) {
   print_error("gnomon " + one_line(text));
   return static_cast<int>(ErrorKind::usage);
@@ -58,69 +52,6 @@ int usage_error(const std::string& text) {
 int print_failure(const Error& error) {
   print_error(error);
   return static_cast<int>(error.kind);
-}
-
-bool looks_like_a_scene(const std::string& word) {
-  const std::vector<BuiltinScene> scenes = builtin_scenes();
-  return std::filesystem::path(word).has_extension() || !lesson_note(word).empty() ||
-         std::any_of(scenes.begin(), scenes.end(),
-                     [&](const BuiltinScene& scene) { return scene.name == word; });
-}
-
-/// The first word must be a command or one of the program's own options.
-int unknown_command(const CLI::App& program, const std::string& word) {
-  if (looks_like_a_scene(word)) {
-    return usage_error(fmt::format("{0}: not a command; did you mean gnomon compare {0}?", word));
-  }
-  const std::string hint = did_you_mean(word, command_names(program));
-  return usage_error(fmt::format("{}: not a command{}", word, hint.empty() ? " (see gnomon --help)" : hint));
-}
-
-/// The first argument that the command did not take.
-int unexpected_argument(const CLI::App& command, const std::vector<std::string>& left_over) {
-  const std::string prefix = command.get_parent() == nullptr ? "" : command.get_name() + ": ";
-  const std::string& word = left_over.front();
-  if (!word.starts_with("-") || word == "-") {
-    return usage_error(fmt::format("{}one argument too many (got {})", prefix, word));
-  }
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  const std::string typed = word.substr(0, word.find('='));
-  if (std::find(names.begin(), names.end(), typed) != names.end())
-    return usage_error(fmt::format("{}{} stands behind the command's name, not before it", prefix, typed));
-  const std::string hint = did_you_mean(typed, std::vector<std::string_view>(names.begin(), names.end()));
-  return usage_error(
-      fmt::format("{}unknown option {}{}", prefix, typed, hint.empty() ? " (--help lists them)" : hint));
-}
-
-/// What CLI11 says by itself of an option's value, in this program's words.
-std::string in_plain_words(const std::string& text) {
-  const auto parted = [&text](std::string_view before, std::string_view between) {
-    const std::size_t at = text.find(between);
-    return text.starts_with(before) && at != std::string::npos
-               ? std::optional(std::pair(text.substr(before.size(), at - before.size()),
-                                         text.substr(at + between.size())))
-               : std::nullopt;
-  };
-  if (const auto flag = parted("Could not convert: ", " = "))
-    return fmt::format("{}: not a switch's value (got {}, allowed on, off)", flag->first, flag->second);
-  if (const auto none = parted("", ": 1 required "))
-    return fmt::format("{}: has no value (allowed {})", none->first,
-                       none->second.substr(0, none->second.rfind(" missing")));
-  return text;
-}
-
-int parse_failure(const CLI::App& program, const CLI::ParseError& error) {
-  const std::vector<CLI::App*> chosen = program.get_subcommands();
-  const CLI::App& command = chosen.empty() ? program : *chosen.front();
-  const std::string prefix = chosen.empty() ? "" : command.get_name() + ": ";
-  const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error);
-  const std::vector<std::string> left_over = program.remaining(true);
-  const bool no_command = chosen.empty() && !left_over.empty();
-  if ((extras != nullptr && !left_over.empty()) || no_command) return unexpected_argument(command, left_over);
-  return usage_error(prefix + in_plain_words(error.what()));
 }
 
 /// CLI11's way to print a text and stop is the version flag's exception.
@@ -177,6 +108,31 @@ void let_the_last_count(CLI::App& program) {
       if (is_single(*option)) option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
+/// The value as the option's help spells it: "PCF" for "pcf", part by part where commas are between.
+std::string as_named(const std::string& typed, const std::vector<std::string>& names) {
+  std::string value;
+  for (std::size_t start = 0; start <= typed.size();) {
+    const std::size_t end = std::min(typed.find(',', start), typed.size());
+    std::string part = typed.substr(start, end - start);
+    for (const std::string& name : names)
+      if (is_same_word(part, name)) part = name;
+    value += part;
+    if (end < typed.size()) value += ',';
+    start = end + 1;
+  }
+  return value;
+}
+
+/// Named values are understood in any case.
+void take_names_in_any_case(CLI::App& program) {
+  std::vector<CLI::App*> takers = program.get_subcommands({});
+  takers.push_back(&program);
+  for (CLI::App* taker : takers)
+    for (CLI::Option* option : taker->get_options())
+      if (!option->get_type_name().empty())
+        option->transform([option](std::string typed) { return as_named(typed, named_values(*option)); });
+}
+
 /// One note for each option that was given again with another value.
 std::vector<std::string> replaced_values(const CLI::App& program) {
   std::vector<std::string> notes;
@@ -211,9 +167,10 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
       "gnomon compare model.glb --bias 0.02 --map-size 2048 -o report\n"
       "gnomon plan model.glb      which effects are simulated, and why\n"
       "gnomon scenes              the built-in scenes");
-  program->set_help_flag("--help,-h", "print this help and exit");
+  program->set_help_flag(
+      "--help,-h", "print this help and exit, as gnomon help [COMMAND] does; -h prints what is needed most");
   program->set_version_flag("--version", fmt::format("gnomon {}\n", compare::program_version()),
-                            "print the version and exit");
+                            "print the version and exit, as gnomon version does");
   add_completion(*program);
   add_man_page(*program);
   add_manual(*program);
@@ -225,6 +182,7 @@ std::unique_ptr<CLI::App> make_program(Invocation& invocation) {
     if (has_trace(command.name)) add_trace(*added, invocation.trace);
   }
   let_the_last_count(*program);
+  take_names_in_any_case(*program);
   return program;
 }
 
@@ -327,13 +285,35 @@ bool prints_all_commands(std::string_view option) {
          option.starts_with("--completion=") || option.starts_with("--manual=");
 }
 
-/// "gnomon --help compare" asks what "gnomon compare --help" does.
-const CLI::App* asked_about(const CLI::App& program, int argc, const char* const* argv) {
-  if (argc < 3 || (std::string_view(argv[1]) != "--help" && std::string_view(argv[1]) != "-h"))
-    return nullptr;
+using Words = std::vector<std::string>;
+
+/// What was typed behind the program's name, "help" as --help.
+Words words_of(int argc, const char* const* argv) {
+  Words words(argv + 1, argv + argc);
+  words.front() = option_for(words.front());
+  return words;
+}
+
+/// -h asks for the help in short, --help for all of it.
+int print_help(const CLI::App& command, const Words& words) {
+  const bool in_full = std::find(words.begin(), words.end(), "--help") != words.end();
+  print_data(in_full ? help_text(command) : short_help_text(command));
+  return code_after_stdout(0);
+}
+
+/// "gnomon --help compare" says what "gnomon compare --help" does.
+int help_on_command(const CLI::App& program, const Words& words) {
+  const std::string& name = words[1];
+  if (const auto here = missing_program(name); !here) return print_failure(here.error());
   for (const CLI::App* command : program.get_subcommands({}))
-    if (command->get_name() == argv[2]) return command;
-  return nullptr;
+    if (command->get_name() == name) return print_help(*command, words);
+  return usage_error(unknown_command_text(program, name));
+}
+
+bool is_command(const CLI::App& program, const std::string& word) {
+  const std::vector<const CLI::App*> commands = program.get_subcommands({});
+  return std::any_of(commands.begin(), commands.end(),
+                     [&](const CLI::App* command) { return command->get_name() == word; });
 }
 
 int parse_and_run(int argc, const char* const* argv, bool runs) {
@@ -341,15 +321,13 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
   invocation.command_line = command_line_text(argc, argv);
   const std::unique_ptr<CLI::App> program = make_program(invocation);
   if (argc < 2) {
-    print_error(help_text(*program));
+    print_error(short_help_text(*program));
     return static_cast<int>(ErrorKind::usage);
   }
-  const std::string first = argv[1];
-  if (const CLI::App* command = asked_about(*program, argc, argv); command != nullptr) {
-    if (const auto here = missing_program(command->get_name()); !here) return print_failure(here.error());
-    print_data(help_text(*command));
-    return code_after_stdout(0);
-  }
+  const Words words = words_of(argc, argv);
+  const std::string& first = words.front();
+  if (words.size() > 1 && asks_for_help(first) && !words[1].starts_with("-"))
+    return help_on_command(*program, words);
   if (const auto here = missing_program(first); !here) return print_failure(here.error());
   if (first == "--describe") {
     print_data(description_of(*program));
@@ -357,11 +335,10 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
   }
   if (prints_all_commands(first))
     if (const auto described = describe_others(*program); !described) return print_failure(described.error());
-  const std::vector<std::string_view> known = command_names(*program);
-  const bool is_command = std::find(known.begin(), known.end(), first) != known.end();
-  if (!is_command && !first.starts_with("-")) return unknown_command(*program, first);
+  if (!is_command(*program, first) && !first.starts_with("-"))
+    return usage_error(unknown_command_text(*program, first));
   try {
-    program->parse(argc, argv);
+    program->parse(Words(words.rbegin(), words.rend()));  // the last first, as CLI11 wants them
     if (const auto finished = finish_settings(*program, invocation); !finished) {
       return print_failure(finished.error());
     }
@@ -369,13 +346,12 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
     apply_common_options(*program, invocation);
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program->get_subcommands();
-    print_data(help_text(chosen.empty() ? *program : *chosen.front()));
-    return code_after_stdout(0);
+    return print_help(chosen.empty() ? *program : *chosen.front(), words);
   } catch (const CLI::CallForVersion& version) {
     print_data(version.what());
     return code_after_stdout(0);
   } catch (const CLI::ParseError& error) {
-    return parse_failure(*program, error);
+    return usage_error(parse_failure_text(*program, error));
   }
   return run_action(invocation);
 }

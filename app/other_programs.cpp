@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/help/manual.h"
 #include "scene/base/run_program.h"
 #include "scene/files/own_program.h"
 
@@ -66,9 +67,7 @@ tl::unexpected<Error> not_there(std::string_view what) {
 
 void become_program_of_command(int argc, char** argv) {
   if (argc < 2) return;
-  const std::string_view first = argv[1];
-  const bool is_asked_about = argc > 2 && (first == "--help" || first == "-h");
-  const Command* command = command_elsewhere(is_asked_about ? argv[2] : first);
+  const Command* command = command_elsewhere(argv[argc > 2 && asks_for_help(argv[1]) ? 2 : 1]);
   if (command == nullptr) return;
   execv(program_beside(command->program).c_str(), argv);
 }

@@ -12,7 +12,7 @@ class App;
 
 namespace gnomon::app {
 
-/// Becomes the program that has the command argv[1], or that of "--help COMMAND", where that is not this one. Returns where it is
+/// Becomes the program that has the command argv[1], or that of "help COMMAND", where that is not this one. Returns where it is
 /// this one, and where the other cannot be started: missing_program() says so then.
 void become_program_of_command(int argc, char** argv);
 

@@ -119,8 +119,8 @@ GNOMON_COMMAND(export, 80, "Write a scene as glTF 2.0, so that another renderer 
          "README")
       ->type_name("DIR");
   add_checked(*app, "--size", "WxH",
-              fmt::format("size of the suite's masks [pixels, 1x1 to {0}x{0}; default {1}x{2}]",
-                          max_image_side, command->size.width, command->size.height),
+              fmt::format("size of the suite's masks [{}; default {}x{}]", size_choices(),
+                          command->size.width, command->size.height),
               [command](const std::string& text) -> Expected<void> {
                 const auto size = parse_size(text);
                 if (!size) return fail(size.error());

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <vector>
 
 #include "report/lessons.h"
@@ -49,6 +50,13 @@ std::string words_of_commands(const CLI::App& program) {
   for (const CLI::App* command : commands_of(program))
     names += (names.empty() ? "" : " ") + command->get_name();
   return names;
+}
+
+/// What may stand in a command's place: "compare raster … help version".
+std::string first_words(const CLI::App& program) {
+  std::string words = words_of_commands(program);
+  for (const WordForOption& each : words_for_options) words += fmt::format(" {}", each.word);
+  return words;
 }
 
 std::string scene_names() {
@@ -128,7 +136,7 @@ std::string bash_values(const CLI::App& program) {
 }
 
 std::string bash_script(const CLI::App& program) {
-  std::string cases;
+  std::string cases = fmt::format("    help) words=\"{}\" files= ;;\n", words_of_commands(program));
   for (const CLI::App* command : commands_of(program)) {
     cases += fmt::format("    {}) words=\"{} {}\" ;;\n", command->get_name(), option_names(*command),
                          takes_scene(*command) ? scene_names() : "");
@@ -150,7 +158,7 @@ std::string bash_script(const CLI::App& program) {
       "-f -- \"$word\")\n"
       "}}\n"
       "complete -o filenames -F _gnomon gnomon\n",
-      words_of_commands(program), option_names(program), cases, bash_values(program));
+      first_words(program), option_names(program), cases, bash_values(program));
 }
 
 std::string zsh_action(const CLI::Option& option) {
@@ -162,7 +170,10 @@ std::string zsh_action(const CLI::Option& option) {
 }
 
 std::string zsh_script(const CLI::App& program) {
-  std::string commands, cases;
+  std::string commands, cases = "    help) _describe command commands ;;\n";
+  for (const WordForOption& each : words_for_options)
+    commands +=
+        fmt::format("    '{}:{}'\n", each.word, purpose(*program.get_option(std::string(each.option))));
   for (const CLI::App* command : commands_of(program)) {
     commands += fmt::format("    '{}:{}'\n", command->get_name(), quoted_text(command->get_description()));
     cases += fmt::format("    {})\n      _arguments '{}'", command->get_name(),
@@ -198,6 +209,11 @@ std::string fish_argument(const CLI::Option& option) {
 
 std::string fish_script(const CLI::App& program) {
   std::string text = "complete -c gnomon -n __fish_use_subcommand -f\n";
+  for (const WordForOption& each : words_for_options)
+    text += fmt::format("complete -c gnomon -n __fish_use_subcommand -a {} -d '{}'\n", each.word,
+                        purpose(*program.get_option(std::string(each.option))));
+  text += fmt::format("complete -c gnomon -n '__fish_seen_subcommand_from help' -f -a '{}'\n",
+                      words_of_commands(program));
   for (const CLI::App* command : commands_of(program)) {
     text += fmt::format("complete -c gnomon -n __fish_use_subcommand -a {} -d '{}'\n", command->get_name(),
                         quoted_text(command->get_description()));
@@ -215,6 +231,16 @@ std::string fish_script(const CLI::App& program) {
 }
 
 }  // namespace
+
+std::vector<std::string> named_values(const CLI::Option& option) {
+  const OptionChoices values = values_of(option);
+  std::vector<std::string> names = values.words;
+  std::istringstream parts(values.files ? std::string() : option.get_type_name());
+  for (std::string part; std::getline(parts, part, '|');)
+    if (!part.empty() && std::all_of(part.begin(), part.end(), [](char c) { return c >= 'a' && c <= 'z'; }))
+      names.push_back(part);
+  return names;
+}
 
 std::string completion_script(const CLI::App& program, std::string_view shell) {
   if (shell == "bash") return bash_script(program);

@@ -21,13 +21,8 @@ std::string examples(const CLI::App& command) {
 }
 
 std::string option_help(const CLI::Option& option) {
-  std::string names = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
-  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2)) {
-    names.replace(comma, 1, ", ");
-  }
-  const bool takes_value = !option.get_positional() && !option.get_type_name().empty();
-  if (takes_value) names += " " + option.get_type_name();
-  return fmt::format("  {}\n{}", names, wrap(option.get_description(), text_indent, help_width));
+  return fmt::format("  {}\n{}", option_usage(option),
+                     wrap(option.get_description(), text_indent, help_width));
 }
 
 /// "SCENE", "[SCENE]", "[CAPTURE...]".
@@ -37,13 +32,11 @@ std::string usage_word(const CLI::Option& positional) {
 }
 
 std::string command_help(const CLI::App& command) {
-  std::string positionals, options, usage = "gnomon " + command.get_name();
-  for (const CLI::Option* option : command.get_options()) {
+  std::string positionals, options;
+  for (const CLI::Option* option : command.get_options())
     (option->get_positional() ? positionals : options) += option_help(*option);
-    if (option->get_positional()) usage += " " + usage_word(*option);
-  }
   return fmt::format("{}\n{}\nUsage: {} [OPTIONS]\n{}{}\nOptions:\n{}",
-                     wrap(command.get_description(), 0, help_width), examples(command), usage,
+                     wrap(command.get_description(), 0, help_width), examples(command), usage_of(command),
                      positionals.empty() ? "" : "\n", positionals, options);
 }
 
@@ -62,6 +55,21 @@ std::string program_help(const CLI::App& program) {
 }
 
 }  // namespace
+
+std::string option_usage(const CLI::Option& option) {
+  std::string names = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2))
+    names.replace(comma, 1, ", ");
+  const bool takes_value = !option.get_positional() && !option.get_type_name().empty();
+  return takes_value ? names + " " + option.get_type_name() : names;
+}
+
+std::string usage_of(const CLI::App& command) {
+  std::string usage = "gnomon " + command.get_name();
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_positional()) usage += " " + usage_word(*option);
+  return usage;
+}
 
 std::string help_text(const CLI::App& command) {
   return command.get_parent() == nullptr ? program_help(command) : command_help(command);

@@ -36,11 +36,7 @@ std::string option_key(const CLI::Option& option) {
 
 /// "`-o, --output DIR`".
 std::string option_heading(const CLI::Option& option) {
-  std::string names = option_key(option);
-  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', comma + 2))
-    names.replace(comma, 1, ", ");
-  const bool takes_value = !option.get_positional() && !option.get_type_name().empty();
-  return fmt::format("`{}{}`", names, takes_value ? " " + option.get_type_name() : "");
+  return fmt::format("`{}`", option_usage(option));
 }
 
 std::string option_item(const CLI::Option& option) {

@@ -93,9 +93,8 @@ void add_tessellate(CLI::App& command, int& tessellate) {
 }
 
 void add_size(CLI::App& command, ImageSize& size) {
-  const std::string range = fmt::format("pixels, 1x1 to {0}x{0}", max_image_side);
   add_value(command, "--size", "WxH",
-            describe("size of the picture", range, fmt::format("{}x{}", size.width, size.height)),
+            describe("size of the picture", size_choices(), fmt::format("{}x{}", size.width, size.height)),
             [&size](const std::string& value) { return assign(size, parse_size(value)); });
 }
 

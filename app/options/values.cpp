@@ -8,8 +8,31 @@
 
 namespace gnomon::app {
 
+namespace {
+
+constexpr std::pair<std::string_view, ImageSize> named_sizes[] = {{"720p", {1280, 720}},
+                                                                  {"1080p", {1920, 1080}},
+                                                                  {"1440p", {2560, 1440}},
+                                                                  {"4k", {3840, 2160}},
+                                                                  {"8k", {7680, 4320}}};
+
+std::string size_names(std::string_view separator) {
+  std::string text;
+  for (const auto& [name, size] : named_sizes)
+    text += (text.empty() ? "" : std::string(separator)) + std::string(name);
+  return text;
+}
+
+}  // namespace
+
+std::string size_choices() {
+  return fmt::format("{1}; or pixels, 1x1 to {0}x{0}", max_image_side, size_names(" or "));
+}
+
 Expected<ImageSize> parse_size(std::string_view text) {
-  const std::string allowed = fmt::format("1x1 to {0}x{0}", max_image_side);
+  for (const auto& [name, size] : named_sizes)
+    if (name == text) return size;
+  const std::string allowed = fmt::format("1x1 to {0}x{0}, or {1}", max_image_side, size_names(", "));
   const std::size_t cross = text.find('x');
   if (cross == std::string_view::npos) return wrong_value("not of the form WIDTHxHEIGHT", text, allowed);
   const Expected<std::int64_t> width = parse_integer(text.substr(0, cross), 1, max_image_side);
@@ -48,8 +71,9 @@ Expected<compare::Threshold> parse_threshold(std::string_view text, const compar
   }
   const Expected<double> share = parse_share(number);
   if (!share) return wrong_value("not a limit", text, compare::threshold_range(false));
+  if (*share == 1.0 && measure.form() == compare::FigureForm::percent && !number.ends_with('%'))
+    return wrong_value("1 is all, and may be meant as one per cent", text, "1% or 0.01, or 100%");
   out.limit = *share;
-  out.bare_one = out.limit == 1.0 && !number.ends_with('%');
   return out;
 }
 

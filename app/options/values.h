@@ -15,13 +15,16 @@
 namespace gnomon::app {
 
 inline constexpr int max_image_side = 16384;  ///< pixels; OpenGL 4.5 drivers agree on it
-/// "1280x720": pixels, each side from 1 to max_image_side.
+/// "1280x720": pixels, each side from 1 to max_image_side; or "720p", one of the sizes that have a name.
 Expected<ImageSize> parse_size(std::string_view text);
+/// "720p or 1080p or ...; or pixels, 1x1 to 16384x16384": what a size may be, for the help of an option.
+std::string size_choices();
 
 /// "1%" or "0.01": a share in [0, 1].
 Expected<double> parse_share(std::string_view text);
 
-/// "1%" (a limit of `plain`), "wrong:1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".
+/// "1%" (a limit of `plain`), "wrong:1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1". A percentage of "1" is refused: it is
+/// 100 %, and may be meant as 1 %.
 Expected<compare::Threshold> parse_threshold(std::string_view text,
                                              const compare::Figure& plain = compare::wrong_and_mean());
 

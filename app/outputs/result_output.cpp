@@ -88,8 +88,6 @@ bool passes(const compare::Threshold& threshold, const std::string& light,
 ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
   ExitCode code = ExitCode::done;
   if (!output.fail_above) return code;
-  if (output.fail_above->bare_one)
-    console.note("--fail-above 1 is a limit of 100 %, which no share exceeds; one per cent is 1% or 0.01");
   const std::vector<compare::LightFigures> lights = compare::judged_lights(comparison);
   if (compare::says_nothing(*output.fail_above, lights)) {
     const bool empty = comparison.world->scene->is_empty_model;

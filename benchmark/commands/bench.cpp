@@ -267,7 +267,8 @@ void add_tune_options(CLI::App& app, BenchCommand& command) {
     return known ? std::string() : known.error().reason;
   };
   app.add_option("--technique", command.tuned_techniques,
-                 "of --tune: the grid's techniques [names with commas between; default all]")
+                 fmt::format("of --tune: the grid's techniques [{}; default all]",
+                             raster::allowed_text(*raster::find_setting("technique"))))
       ->delimiter(',')
       ->check(reason)
       ->type_name("NAME[,NAME]");

@@ -21,8 +21,7 @@ const Figure* find_measure(std::string_view name);
 
 struct Threshold {
   const Figure* measure = &wrong_and_mean();
-  double limit = 0.0;     ///< in the measure's unit
-  bool bare_one = false;  ///< given as "1", which is a share of 100 %, and may be meant as 1 %
+  double limit = 0.0;  ///< in the measure's unit
   bool operator==(const Threshold&) const = default;
 };
 /// Writes the threshold as it is given: "1%", "mean:0.5%", "flip:0.05", "edge:0.5texel", "shimmer:0.1".

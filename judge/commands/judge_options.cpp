@@ -235,7 +235,7 @@ void add_capture_options(CLI::App& app, CaptureOptions& o) {
   add_text(app, "--unshadowed", "FILE",
            "linear picture without shadows [EXR or 16-bit PNG; default the capture's]", o, c.unshadowed);
   add_text(app, "--position", "FILE.exr", "world positions [EXR; default the capture's]", o, c.position);
-  add_value(app, "--size", "WxH", "of the pictures [pixels; default the capture's]",
+  add_value(app, "--size", "WxH", describe("of the pictures", size_choices(), "the capture's"),
             [&o](const std::string& value) {
               o.any = true;
               return assign(o.given.size, parse_size(value));

@@ -36,11 +36,10 @@ void add_look(CLI::App& app, lab::ViewOptions& options) {
 }
 
 void add_window_size(CLI::App& app, ImageSize& size) {
-  add_value(
-      app, "--size", "WxH",
-      describe("size of the window, panels and all", fmt::format("pixels, 1x1 to {0}x{0}", max_image_side),
-               fmt::format("{}x{}", size.width, size.height)),
-      [&size](const std::string& value) { return assign(size, parse_size(value)); });
+  add_value(app, "--size", "WxH",
+            describe("size of the window, panels and all", size_choices(),
+                     fmt::format("{}x{}", size.width, size.height)),
+            [&size](const std::string& value) { return assign(size, parse_size(value)); });
 }
 
 }  // namespace

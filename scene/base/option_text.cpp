@@ -69,6 +69,23 @@ Expected<std::uint64_t> parse_unsigned(std::string_view text) {
   return *value;
 }
 
+namespace {
+
+/// ASCII alone, whatever the locale.
+char lower_case(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool is_same_letter(char a, char b) {
+  return lower_case(a) == lower_case(b);
+}
+
+}  // namespace
+
+bool is_same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same_letter);
+}
+
 // Optimal string alignment distance: Damerau 1964, in the three-row form of Hyyrö 2003, section 2.
 
 namespace {
@@ -79,9 +96,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     current[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = previous[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      const std::size_t substituted = previous[j - 1] + (is_same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
       current[j] = std::min({substituted, previous[j] + 1, current[j - 1] + 1});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      const bool swapped =
+          i > 1 && j > 1 && is_same_letter(a[i - 1], b[j - 2]) && is_same_letter(a[i - 2], b[j - 1]);
       if (swapped) current[j] = std::min(current[j], before[j - 2] + 1);
     }
     std::swap(before, previous);

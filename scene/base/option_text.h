@@ -42,10 +42,14 @@ Expected<std::uint64_t> parse_unsigned(std::string_view text);
 /// The word as a POSIX shell needs it typed: itself where it is plain, else in single quotes.
 std::string shell_quoted(std::string_view word);
 
+/// Whether both are the same word but for the case of their (ASCII) letters.
+bool is_same_word(std::string_view a, std::string_view b);
+
 // Did you mean …?
 
 /// The known name nearest to `name`, if it is near enough to be a slip: at most a third of its letters
-/// changed. An insertion, deletion, substitution or swap of neighbours counts as one. Empty when none is.
+/// changed. An insertion, deletion, substitution or swap of neighbours counts as one, another case of a letter
+/// as none. Empty when none is.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
 /// "; did you mean NAME?", or nothing.

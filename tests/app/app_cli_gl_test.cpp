@@ -282,20 +282,11 @@ TEST(ExitCodes, ThresholdExceeded) {
   EXPECT_EQ(run_gnomon(acne + Words{"--fail-above", "100%"}, here).exit_code, 0);
 }
 
-// A bare number is a share of 1, so that "1" means 100 %: who means one per cent is told.
-TEST(ExitCodes, ABareOneIsSaidToBeAll) {
-  const TemporaryFolder folder;
-  const ProcessOptions here{.folder = folder.path()};
-  const auto said = [&](const char* limit) {
-    return run_gnomon(Words{"compare", "acne-floor", "--bias", "0"} + small + Words{"--fail-above", limit},
-                      here);
-  };
-  const std::string note = "note: --fail-above 1 is a limit of 100 %";
-  EXPECT_NE(said("1").err.find(note), std::string::npos);
-  EXPECT_EQ(said("1").exit_code, 0);
-  EXPECT_NE(said("wrong:1").err.find(note), std::string::npos);
-  for (const char* limit : {"1%", "100%", "0.5", "edge:1"})
-    EXPECT_EQ(said(limit).err.find("100 %"), std::string::npos) << limit;
+TEST(ExitCodes, ABareOneIsNoLimit) {
+  for (const char* limit : {"1", "wrong:1"})
+    expect_one_line(run_gnomon({"compare", "acne-floor", "--fail-above", limit}), 2,
+                    "gnomon compare: --fail-above: 1 is all, and may be meant as one per cent (got ");
+  expect_one_line(run_gnomon({"tune", "acne-floor", "--max-error", "1"}), 2, "(got 1, allowed 1% or 0.01, ");
 }
 
 // A floor under slats narrower than the filter: grey all over, where it is striped in truth.

@@ -46,7 +46,11 @@ class Completion : public ::testing::Test {
 
 TEST_F(Completion, BashOffersValues) {
   EXPECT_EQ(in_bash("gnomon comp"), "compare\n");
+  EXPECT_EQ(in_bash("gnomon hel"), "help\n");
+  EXPECT_EQ(in_bash("gnomon vers"), "version\n");
+  EXPECT_EQ(in_bash("gnomon help ra"), "raster\nraytrace\n");
   EXPECT_EQ(in_bash("gnomon compare fen"), "fence\n");
+  EXPECT_EQ(in_bash("gnomon compare fence --size \"\""), "720p\n1080p\n1440p\n4k\n8k\n");
   EXPECT_EQ(in_bash("gnomon compare --tech"), "--technique\n");
   EXPECT_EQ(in_bash("gnomon compare fence --technique pc"), "pcf\npcss\n");
   EXPECT_EQ(in_bash("gnomon compare fence --technique = mid"), "midpoint\n");  // --technique=mid
@@ -68,6 +72,7 @@ TEST_F(Completion, FishOffersValues) {
   EXPECT_EQ(in_fish("gnomon compare fence --depth-format d32"), "d32f\nd32f-reversed\n");
   EXPECT_EQ(in_fish("gnomon sweep fence --technique hard,ms"), "hard,msm\n");
   EXPECT_NE(in_fish("gnomon compare fe").find("fence"), std::string::npos);
+  EXPECT_EQ(in_fish("gnomon help ra"), "raster\nraytrace\n");
 }
 
 TEST_F(Completion, ZshTakesTheScript) {

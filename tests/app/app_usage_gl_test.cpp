@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/command_line.h"
+#include "app/wrong_words.h"
 #include "tests/support/app_process.h"
 
 namespace gnomon::app_test {
@@ -48,7 +49,61 @@ TEST(Usage, WrongNamesGetASuggestion) {
                   {{"fence"}, "did you mean gnomon compare fence?"},
                   {{"model.glb"}, "did you mean gnomon compare model.glb?"},
                   {fence({"--depth-format", "d32"}), "did you mean d32f?"},
-                  {{"bench", "--tune", "fence", "--technique", "hard,cms"}, "did you mean csm?"}});
+                  {{"bench", "--tune", "fence", "--technique", "hard,cms"}, "did you mean csm?"},
+                  {{"hlep"}, "did you mean help?"},
+                  {{"help", "comapre"}, "did you mean compare?"}});
+}
+
+TEST(Usage, OtherProgramsNamesOfOptionsAreUnderstood) {
+  expect_refused({{fence({"--resolution", "1280x720"}), "did you mean --size?"},
+                  {fence({"--spp=16"}), "unknown option --spp; did you mean --samples?"},
+                  {fence({"--shadow-map-size", "1024"}), "did you mean --map-size?"},
+                  {fence({"--shadowMapSize", "1024"}), "did you mean --map-size?"},
+                  {fence({"--shadow_normal_bias", "1"}), "did you mean --normal-offset?"},
+                  {fence({"--map_size", "1024"}), "did you mean --map-size?"},
+                  {fence({"--max-error", "1%"}), "did you mean --fail-above?"},
+                  {{"tune", "fence", "--fail-above", "1%"}, "did you mean --max-error?"},
+                  {{"raytrace", "fence", "--depth-bias", "1"}, "(--help lists them)"},
+                  {{"plan", "fence", "--seed", "1"}, "unknown option --seed (an option of compare, "}});
+}
+
+// Each row of the table is of use: some command has our option, and does not call it so itself.
+TEST(Usage, EverySynonymHelpsSomewhere) {
+  const std::vector<Words> commands = {
+      fence({}), {"tune", "fence"}, {"raytrace", "fence"}, {"serve", "fence"}};
+  for (const app::OptionSynonym& synonym : app::option_synonyms()) {
+    const std::string hint = "; did you mean --" + std::string(synonym.ours) + "?";
+    const bool helps = std::any_of(commands.begin(), commands.end(), [&](const Words& command) {
+      return said_to(command + Words{"--" + std::string(synonym.theirs)}).err.find(hint) != std::string::npos;
+    });
+    EXPECT_TRUE(helps) << synonym.theirs << ": " << synonym.ours;
+  }
+}
+
+TEST(Usage, NamedValuesAreUnderstoodInAnyCase) {
+  const auto parsed = [](const Words& words) {
+    std::vector<const char*> argv{"gnomon"};
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return app::check_command_line(static_cast<int>(argv.size()), argv.data());
+  };
+  for (const Words& words : {fence({"--technique", "PCF", "--filter-kernel=Vogel"}),
+                             fence({"--bias", "Auto", "--exposure", "AUTO", "--accel", "BVH"}),
+                             fence({"--size", "4K", "--measure", "FLIP", "--backend", "EGL"}),
+                             {"sweep", "fence", "--technique", "Hard,PCF,vsm", "--receiver-plane", "OFF,on"},
+                             {"bench", "--tune", "fence", "--technique", "HARD,Csm"},
+                             {"tune", "fence", "--max-error", "1%", "--engine", "Unity"}})
+    EXPECT_EQ(parsed(words), 0) << words[0] << " " << words[2] << " " << words[3];
+  expect_refused({{fence({"--technique", "PFC"}), "(got PFC, allowed hard, "},
+                  {fence({"--technique", "PFC"}), "did you mean pcf?"}});
+  // What was meant is what is written down.
+  const TemporaryFolder folder;
+  EXPECT_EQ(
+      run_gnomon(Words{"sweep", "acne-floor", "--technique", "HARD,Pcf", "-o", folder / "sweep"} + small)
+          .exit_code,
+      0);
+  const std::string table = read_file(folder / "sweep/sweep.csv");
+  EXPECT_NE(table.find("pcf"), std::string::npos);
+  EXPECT_EQ(table.find("Pcf"), std::string::npos);
 }
 
 TEST(Usage, ValuesOutOfRange) {
@@ -222,6 +277,11 @@ std::vector<std::string> option_paragraphs(const std::string& help) {
   return paragraphs;
 }
 
+/// Characters of UTF-8.
+std::ptrdiff_t columns_of(const std::string& line) {
+  return std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+}
+
 TEST(Help, EveryOptionSaysItsDefaultAndNoLineIsTooLong) {
   for (const char* command : {"compare", "raster", "raytrace", "plan", "scenes"}) {
     const ProcessResult result = run_gnomon({command, "--help"});
@@ -276,8 +336,44 @@ TEST(Help, Version) {
   for (const char* help : {"--help", "-h"}) {
     const ProcessResult asked = run_gnomon({help, "compare"});
     EXPECT_EQ(asked.exit_code, 0) << asked.err;
-    EXPECT_EQ(asked.out, run_gnomon({"compare", "--help"}).out);
+    EXPECT_EQ(asked.out, run_gnomon({"compare", help}).out);
   }
+}
+
+TEST(Help, WordsAskForWhatOptionsDo) {
+  EXPECT_EQ(run_gnomon({"version"}).out, run_gnomon({"--version"}).out);
+  EXPECT_EQ(run_gnomon({"help"}).out, run_gnomon({"--help"}).out);
+  for (const char* command : {"compare", "judge"}) {
+    const ProcessResult asked = run_gnomon({"help", command});
+    EXPECT_EQ(asked.exit_code, 0) << asked.err;
+    EXPECT_EQ(asked.out, run_gnomon({command, "--help"}).out);
+  }
+}
+
+// -h: what people need, on one screen; --help: all.
+TEST(Help, InShortItIsAScreen) {
+  const std::string program = run_gnomon({"-h"}).out, all = run_gnomon({"--help"}).out;
+  EXPECT_LT(program.size(), all.size());
+  std::vector<Words> asked{{"-h"}};
+  std::istringstream manual(run_gnomon({"--manual", "options"}).out);
+  for (std::string line; std::getline(manual, line);)
+    if (line.starts_with("## gnomon ")) asked.push_back({line.substr(10), "-h"});
+  EXPECT_GE(asked.size(), 19u);
+  for (const Words& words : asked) {
+    const ProcessResult result = run_gnomon(words);
+    EXPECT_EQ(result.exit_code, 0) << words[0];
+    EXPECT_LE(std::count(result.out.begin(), result.out.end(), '\n'), 40) << words[0];
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(columns_of(line), 80) << line;
+    if (words.size() == 1) continue;
+    EXPECT_NE(program.find("\n  " + words[0] + " "), std::string::npos) << words[0] << " is listed";
+    EXPECT_NE(result.out.find("Usage: gnomon " + words[0]), std::string::npos) << words[0];
+    EXPECT_EQ(run_gnomon({"-h", words[0]}).out, result.out) << words[0];
+  }
+  const std::string compare = run_gnomon({"compare", "-h"}).out;
+  for (const char* option : {"--output DIR", "--size WxH", "720p or 1080p", "--technique NAME",
+                             "hard or pcf or", "--fail-above LIMIT", "gnomon compare --help has all "})
+    EXPECT_NE(compare.find(option), std::string::npos) << option << "\n" << compare;
 }
 
 TEST(Help, CompletionAndManualNameEveryOption) {

@@ -71,11 +71,26 @@ TEST(Values, Thresholds) {
     EXPECT_FALSE(parse_threshold(text)) << text;
 }
 
+// A bare number is a share of 1, so that "1" would mean 100 %: who means one per cent is told.
+TEST(Values, ABareOneIsNoLimit) {
+  for (const char* text : {"1", "1.0", "wrong:1", "mean:1"}) {
+    const auto parsed = parse_threshold(text);
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_EQ(parsed.error().reason, "1 is all, and may be meant as one per cent (got " + std::string(text) +
+                                         ", allowed 1% or 0.01, or 100%)");
+  }
+  for (const char* text : {"1%", "0.01", "0.99", "100%", "edge:1", "flip:1"})
+    EXPECT_TRUE(parse_threshold(text)) << text;
+}
+
 TEST(Values, Sizes) {
   EXPECT_EQ(parse_size("1280x720").value(), (ImageSize{1280, 720}));
   EXPECT_EQ(parse_size("16384x1").value(), (ImageSize{16384, 1}));
+  EXPECT_EQ(parse_size("1080p").value(), (ImageSize{1920, 1080}));
+  EXPECT_EQ(parse_size("4k").value(), (ImageSize{3840, 2160}));
+  EXPECT_EQ(parse_size("8k").value(), (ImageSize{7680, 4320}));
   for (const char* text : {"", "x", "1x", "x1", "0x1", "1x0", "-1x1", "1280X720", "1280", "1x1x1", "16385x1",
-                           "2147483648x1", "4294967297x1", "1.5x2", "nanxnan"}) {
+                           "2147483648x1", "4294967297x1", "1.5x2", "nanxnan", "1080", "2k"}) {
     EXPECT_FALSE(parse_size(text)) << text;
   }
 }
@@ -119,6 +134,7 @@ TEST(Suggestions, SlipsAreFoundAndStrangersAreNot) {
   EXPECT_EQ(nearest_name("scene", known), "scenes");
   EXPECT_EQ(nearest_name("render", known), "");
   EXPECT_EQ(nearest_name("", known), "");
+  EXPECT_EQ(nearest_name("CMOPARE", known), "compare") << "whatever its case";
   EXPECT_EQ(did_you_mean("pla", known), "; did you mean plan?");
 }
 
