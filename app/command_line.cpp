@@ -334,7 +334,10 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
     return code_after_stdout(0);
   }
   if (prints_all_commands(first))
-    if (const auto described = describe_others(*program); !described) return print_failure(described.error());
+    for (const Error& missing : describe_others(*program)) {
+      print_error(missing);
+      if (!first.starts_with("--completion")) return static_cast<int>(missing.kind);
+    }
   if (!is_command(*program, first) && !first.starts_with("-"))
     return usage_error(unknown_command_text(*program, first));
   try {

@@ -2,6 +2,7 @@
 #include <csignal>
 
 #include "app/command_line.h"
+#include "app/console.h"
 #include "app/other_programs.h"
 #include "app/process/interrupt.h"
 #include "app/process/machine.h"
@@ -24,6 +25,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  gnomon::app::become_program_of_command(argc, argv);
+  if (const auto is_it = gnomon::app::become_program_of_command(argc, argv); !is_it) {
+    gnomon::app::print_error(is_it.error());
+    return static_cast<int>(is_it.error().kind);
+  }
   return gnomon::app::with_enough_stack(run, argc, argv);
 }

@@ -5,14 +5,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "app/commands.h"
 #include "app/help/manual.h"
+#include "compare/result/option_names.h"
 #include "scene/base/run_program.h"
 #include "scene/files/own_program.h"
+#include "scene/files/path_status.h"
 
 namespace gnomon::app {
 
@@ -56,26 +61,92 @@ void add_description(CLI::App& program, const Json& commands) {
   }
 }
 
-/// `what`: "judge is a command of gnomon-judge".
-tl::unexpected<Error> not_there(std::string_view what) {
-  return fail(ErrorKind::graphics, fmt::format("{}, which is not beside this program; it comes with Gnomon's "
-                                               "package, or by ./gnomon build in its sources",
-                                               what));
+/// How the program that starts another says who it is: "PID PROGRAM VERSION", the program being the one that it starts.
+constexpr const char* started_by = "GNOMON_STARTED_BY";
+
+struct Starter {
+  pid_t process = 0;
+  std::string program;
+  std::string version;
+};
+
+/// What started this process by name, if one of the programs did. Who is started by this one is not told of it.
+std::optional<Starter> take_starter() {
+  const char* text = std::getenv(started_by);
+  if (text == nullptr) return std::nullopt;
+  std::istringstream words(text);
+  unsetenv(started_by);
+  Starter starter;
+  if (!(words >> starter.process >> starter.program >> starter.version)) return std::nullopt;
+  return starter;
+}
+
+/// A build of sources that were changed is one of their commit.
+bool is_same_version(std::string_view a, std::string_view b) {
+  constexpr std::string_view changed = ".changed";
+  for (std::string_view* version : {&a, &b})
+    if (version->ends_with(changed)) version->remove_suffix(changed.size());
+  return a == b;
+}
+
+constexpr std::string_view where_programs_are =
+    "Gnomon's package, or ./gnomon build in its sources, brings all its programs";
+
+/// "gnomon-judge is of version 0.1.0, and this program of 0.2.0; ..."
+std::string other_version(std::string_view program, std::string_view version, std::string_view other,
+                          std::string_view others) {
+  return fmt::format("{} is of version {}, and {} of {}; {}", program, version, other, others,
+                     where_programs_are);
+}
+
+/// Why the program cannot be started, as the end of a sentence that begins with its name.
+std::string why_not_started(std::string_view program) {
+  const std::string path = program_beside(program);
+  const FileKind kind = file_kind_or_none(path);
+  if (kind == FileKind::none) return fmt::format("which is not beside this program; {}", where_programs_are);
+  if (kind != FileKind::file) return fmt::format("and {} is no file; {}", path, where_programs_are);
+  if (access(path.c_str(), X_OK) != 0)
+    return fmt::format("and {0} may not be executed; chmod +x {0} lets it", path);
+  return fmt::format("and {} is not that program; {}", path, where_programs_are);
+}
+
+/// Why what a program says of its commands is of no use; empty where it is.
+std::string description_defect(std::string_view program, const Json& described) {
+  if (!described.is_object())
+    return fmt::format("some commands are those of {}, {}", program, why_not_started(program));
+  const std::string version = described.value("version", std::string());
+  if (!is_same_version(version, compare::program_version()))
+    return other_version(program, version, "this program", compare::program_version());
+  for (const Command& command : all_commands())
+    if (command.program == program && !described.at("commands").contains(command.name))
+      return fmt::format("{} is a command of {}, {}", command.name, program, why_not_started(program));
+  return {};
 }
 
 }  // namespace
 
-void become_program_of_command(int argc, char** argv) {
-  if (argc < 2) return;
+Expected<void> become_program_of_command(int argc, char** argv) {
+  const std::optional<Starter> starter = take_starter();
+  const bool became_this = starter && starter->process == getpid();
+  if (became_this && !is_same_version(starter->version, compare::program_version()))
+    return fail(ErrorKind::graphics, other_version(starter->program, compare::program_version(),
+                                                   "what started it", starter->version));
+  if (argc < 2) return {};
   const Command* command = command_elsewhere(argv[argc > 2 && asks_for_help(argv[1]) ? 2 : 1]);
-  if (command == nullptr) return;
+  if (command == nullptr) return {};
+  if (starter && starter->program == command->program) return missing_program(std::string(command->name));
+  setenv(started_by, fmt::format("{} {} {}", getpid(), command->program, compare::program_version()).c_str(),
+         1);
   execv(program_beside(command->program).c_str(), argv);
+  unsetenv(started_by);
+  return {};
 }
 
 Expected<void> missing_program(const std::string& command) {
   const Command* elsewhere = command_elsewhere(command);
   if (elsewhere == nullptr) return {};
-  return not_there(fmt::format("{} is a command of {}", command, elsewhere->program));
+  return fail(ErrorKind::graphics, fmt::format("{} is a command of {}, {}", command, elsewhere->program,
+                                               why_not_started(elsewhere->program)));
 }
 
 std::string description_of(const CLI::App& program) {
@@ -86,20 +157,24 @@ std::string description_of(const CLI::App& program) {
     for (const CLI::Option* option : command->get_options()) options.push_back(option_json(*option));
     commands[command->get_name()] = {{"examples", command->get_footer()}, {"options", std::move(options)}};
   }
-  return commands.dump() + "\n";
+  return Json{{"version", compare::program_version()}, {"commands", std::move(commands)}}.dump() + "\n";
 }
 
-Expected<void> describe_others(CLI::App& program) {
+std::vector<Error> describe_others(CLI::App& program) {
   std::set<std::string_view> others;
   for (const Command& command : all_commands())
     if (!command.add_options) others.insert(command.program);
+  std::vector<Error> missing;
   for (const std::string_view other : others) {
     const auto end = run_and_listen({program_beside(other), "--describe"});
     const Json described = end && end->code == 0 ? Json::parse(end->said, nullptr, false) : Json();
-    if (!described.is_object()) return not_there(fmt::format("some commands are described by {}", other));
-    add_description(program, described);
+    const std::string defect = description_defect(other, described);
+    if (defect.empty())
+      add_description(program, described.at("commands"));
+    else
+      missing.push_back({ErrorKind::graphics, defect});
   }
-  return {};
+  return missing;
 }
 
 }  // namespace gnomon::app

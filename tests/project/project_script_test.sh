@@ -22,7 +22,9 @@ EOF
 cat >"$work/bin/ninja" <<'EOF'
 #!/bin/sh
 echo "$*" >>"$WORK/built"
-printf '#!/bin/sh\necho "$0"\n' >"$2/app/gnomon" && chmod +x "$2/app/gnomon"
+for program in gnomon gnomon-judge gnomon-bench; do
+  printf '#!/bin/sh\necho "$0"\n' >"$2/app/$program" && chmod +x "$2/app/$program"
+done
 EOF
 cat >"$work/bin/dpkg-query" <<'EOF'
 #!/bin/sh
@@ -37,7 +39,9 @@ mkdir "$work/dpkg" && touch -d '1 hour ago' "$work/dpkg/status"
 export DPKG_ADMINDIR=$work/dpkg
 export WORK=$work PATH=$work/bin:$PATH
 unset GNOMON_STRICT
+mkdir "$work/first place/cmake"
 cp "$source/gnomon" "$source/CMakePresets.json" "$work/first place"
+echo 'set(GNOMON_PROGRAMS app=gnomon benchmark=gnomon-bench judge=gnomon-judge)' >"$work/first place/cmake/GnomonProgram.cmake"
 touch -d '1 hour ago' "$work/first place/CMakePresets.json"
 
 # expect FOLDER OPTIONS: cmake is called with these behind the preset, or not at all where they are "-".
@@ -113,6 +117,29 @@ expect_targets app/gnomon --version
 expect_targets 'app/gnomon gnomon_judge_program' judge compare
 expect_targets 'app/gnomon gnomon_judge_program' --help judge
 expect_targets gnomon_programs --man-page
+
+expect_targets 'app/gnomon gnomon_judge_program' help judge
+expect_targets app/gnomon version
+
+# expect_rebuilt yes|no WHEN ARGUMENTS...: of a finished build, a program that is missing or does not run is built again.
+expect_rebuilt() {
+  local wanted=$1 when=$2
+  shift 2
+  : >"$work/built"
+  "$work/copy/gnomon" "$@" >/dev/null 2>"$work/said" || fail "$when: $(cat "$work/said")"
+  [[ $([[ -s $work/built ]] && echo yes || echo no) == "$wanted" ]] || fail "$when: was Ninja asked? not '$wanted'"
+}
+"$work/copy/gnomon" judge x >/dev/null 2>"$work/said" || fail "judge: $(cat "$work/said")"
+expect_rebuilt no 'all is there' judge x
+rm "$work/copy/build/release/app/gnomon-judge"
+expect_rebuilt no 'what another command needs is gone' compare fence
+expect_rebuilt yes 'the program of the command is gone' judge x
+expect_rebuilt no 'built since' judge x
+chmod -x "$work/copy/build/release/app/gnomon-judge"
+expect_rebuilt yes 'the program may not be executed' judge x
+"$work/copy/gnomon" --man-page >/dev/null 2>"$work/said" || fail "--man-page: $(cat "$work/said")"
+rm "$work/copy/build/release/app/gnomon-bench"
+expect_rebuilt yes 'one of all programs is gone' --man-page
 
 : >"$work/asked"
 "$work/copy/gnomon" build 2>"$work/said" || fail "build: $(cat "$work/said")"
