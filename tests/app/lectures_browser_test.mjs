@@ -1,11 +1,12 @@
 // Both lectures in a real browser, slide by slide as they are projected at 1024 x 768: nothing cut, no letter below 18
-// pixels, texels that the last row sees, minutes that sum to 90; keys, clicker, black screen, the speaker's window; no
-// accessibility violation; and the PDF that Chromium prints: one page a slide, with all that is on it.
+// pixels, texels that the last row sees, minutes that sum to 90; slides and keys from the first moment, before the figures
+// are made; keys, clicker, black screen, the speaker's window; no accessibility violation; and the PDF that Chromium prints: one page a slide, with all that is on it.
 // Needs what lessons_browser_test needs. Usage: node lectures_browser_test.mjs GNOMON_PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readdirSync, rmSync } from "node:fs";
-import { basename, join } from "node:path";
+import { basename, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 import { browser, close, colours, open, violations } from "../browser/open_page.mjs";
 import { pdfPages } from "../browser/pdf_text.mjs";
 
@@ -161,6 +162,54 @@ async function checkKeys(page, lecture) {
   assert.equal(await toCome(page), left - 1);
 }
 
+/** In the page: the notes that its frames show, the most headings that one shows, the figures in the order in which they come, and how
+ *  many there are when keys that come with the first slide have turned it. */
+function watchFrames() {
+  globalThis.watched = { frames: 0, notes: 0, headings: 0, figures: [], whenTurned: location.hash === "" ? null : 0 };
+  const shown = (what) => [...document.querySelectorAll(what)].filter((element) => element.checkVisibility({ visibilityProperty: true }));
+  const look = () => {
+    const { watched } = globalThis;
+    ++watched.frames;
+    watched.notes += shown(".notes").length;
+    watched.headings = Math.max(watched.headings, shown(".part > :is(h1, h2)").length);
+    if (document.documentElement.dataset.view === "lecture" && watched.whenTurned === null) {
+      const begun = location.hash;
+      for (let i = 0; i < 9 && location.hash === begun; ++i)
+        document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+      if (location.hash !== begun) watched.whenTurned = watched.figures.length;
+    }
+    if (document.documentElement.dataset.ready !== "true") requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+  const come = (changes) => {
+    for (const { target } of changes) if (target.matches(".is-live")) globalThis.watched.figures.push(target.dataset.figure);
+  };
+  new MutationObserver(come).observe(document, { subtree: true, attributeFilter: ["class"] });
+}
+
+/** From the first moment it is slides, and takes keys; figures come later, that of the slide in view first. */
+async function checkFirstMoment(lecture) {
+  const context = await browser.newContext({ viewport }),
+    page = await context.newPage(),
+    begin = (hash) => page.goto(pathToFileURL(resolve(folder, `${lecture}.html`)).href + hash, { waitUntil: "commit" });
+  await page.addInitScript(watchFrames);
+  await begin("");
+  const ready = () => page.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  await ready();
+  const { frames, notes, headings, figures, whenTurned } = await page.evaluate(() => globalThis.watched);
+  assert.equal(await hash(page), "#slide-2");
+  assert.ok(figures.length > 10 && frames > 0, lecture);
+  assert.ok(whenTurned < figures.length / 2, `${lecture}: keys turned the slide when ${whenTurned} of ${figures.length} figures were made`);
+  assert.deepEqual([notes, headings], [0, 1], `${lecture} is a document before it is slides`);
+  const last = page.locator(".part:has(.live)").last(),
+    [slide, figure] = await last.evaluate((part) => [part.id, part.querySelector(".live").dataset.figure]);
+  await page.goto("about:blank");
+  await begin(`#${slide}`);
+  await ready();
+  assert.equal(await page.evaluate(() => globalThis.watched.figures[0]), figure, `${lecture}: the slide in view has its figure first`);
+  await context.close();
+}
+
 /** The speaker's window: the notes of the slide that is shown, what comes next, a clock; its keys turn the slides. */
 async function checkNotes(page, lecture) {
   await go(page, 1);
@@ -206,6 +255,7 @@ async function checkPrinted(page, lecture) {
 
 try {
   for (const lecture of lectures) {
+    await checkFirstMoment(lecture);
     const page = await at(lecture);
     await checkSlides(page, lecture);
     await checkTexels(page, lecture);

@@ -16,6 +16,7 @@ import { flatlandFigure } from "./flatland_figure";
 import { gridCurveFigure } from "./grid_curve_figure";
 import { intersectionFigure } from "./intersection_figure";
 import { mapSizeFigure } from "./map_size_figure";
+import { pause } from "./pause";
 import { say } from "./say";
 import { structureFigure } from "./structure_figure";
 import { twoPassesFigure } from "./two_passes_figure";
@@ -118,15 +119,27 @@ class PlacedFigure {
   }
 }
 
-export async function startFigures(): Promise<void> {
-  for (const host of document.querySelectorAll<HTMLElement>(".live")) {
-    const at = Number(host.dataset.figure),
-      figure = pageFigures.figures[at],
+/** That of the slide in view, then those behind it, then the rest. */
+function nextOf(hosts: HTMLElement[]): HTMLElement {
+  const inView = document.querySelector(".on-slide"),
+    isBehind = (host: HTMLElement) => inView !== null && (inView.compareDocumentPosition(host) & Node.DOCUMENT_POSITION_FOLLOWING) !== 0;
+  return hosts.find((host) => inView?.contains(host)) ?? hosts.find(isBehind) ?? hosts[0]!;
+}
+
+/** One after the other; `placed` is told of each place where one has come. */
+export async function startFigures(placed: (host: HTMLElement) => void): Promise<void> {
+  const left = [...document.querySelectorAll<HTMLElement>(".live")].filter((host) => pageFigures.figures[Number(host.dataset.figure)]);
+  while (left.length > 0) {
+    await pause();
+    const host = nextOf(left),
+      at = Number(host.dataset.figure),
+      figure = pageFigures.figures[at]!,
       id = `figure-${at}`;
-    if (!figure) continue;
+    left.splice(left.indexOf(host), 1);
     const made = await makeFigure(figure as FigureJson, id);
     if (!made) continue;
     host.prepend(new PlacedFigure(made, figure, at, id).element);
     host.classList.add("is-live");
+    placed(host);
   }
 }

@@ -3,6 +3,7 @@
 // screen and the printed page. The URL's hash is the slide, "#slide-3".
 import { html } from "../svg";
 import { NotesWindow } from "./notes_window";
+import { pause } from "./pause";
 import { say } from "./say";
 
 const height = 768,
@@ -59,6 +60,7 @@ export class Lecture {
   private readonly count = html("output", {});
   private readonly black = html("div", { class: "black", hidden: "" });
   private readonly notes: NotesWindow;
+  private readonly fitted = new Set<Slide>();
   private at = 0;
   private shown = 0; // steps
 
@@ -84,21 +86,42 @@ export class Lecture {
       this.black,
     );
     document.documentElement.dataset.view = "lecture";
-    article.style.width = `${least}px`;
-    this.slides.forEach((slide) => this.fit(slide));
     document.addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("hashchange", () => this.restore());
     window.addEventListener("resize", () => this.scale());
-    this.scale();
+    window.addEventListener("beforeprint", () => this.fit(this.slides));
     this.restore();
   }
 
-  /** The largest letters with which the slide fits at its narrowest. */
-  private fit({ element }: Slide): void {
-    for (let size = element.querySelector(".figure") ? beside : largest; size >= smallest; --size) {
-      element.style.fontSize = `${size}px`;
-      if (fits(element)) return;
+  /** A figure has come into the slide that the element is on. */
+  refit(host: Element): void {
+    const slide = this.slides.find(({ element }) => element.contains(host));
+    if (!slide) return;
+    this.fitted.delete(slide);
+    if (slide === this.slides[this.at]) this.fit([slide]);
+  }
+
+  /** The slides that were not shown yet, one by one: keys are taken between them. */
+  async fitAll(): Promise<void> {
+    for (const slide of this.slides) {
+      await pause();
+      this.fit([slide]);
     }
+  }
+
+  /** The largest letters with which each slide fits at its narrowest. To measure takes a while, so it is done once. */
+  private fit(slides: Slide[]): void {
+    const left = slides.filter((slide) => !this.fitted.has(slide));
+    if (left.length === 0) return;
+    Object.assign(this.stage.style, { width: `${least}px`, transform: "none" });
+    for (const slide of left) {
+      const { element } = slide;
+      let size = element.querySelector(".figure") ? beside : largest;
+      do element.style.fontSize = `${size}px`;
+      while (!fits(element) && --size >= smallest);
+      this.fitted.add(slide);
+    }
+    this.scale();
   }
 
   private scale(): void {
@@ -118,6 +141,7 @@ export class Lecture {
   private show(at: number, shown: number): void {
     [this.at, this.shown] = [at, shown];
     const slide = this.slides[at]!;
+    this.fit([slide]);
     this.slides.forEach(({ element }, i) => element.classList.toggle("on-slide", i === at));
     slide.steps.forEach((step, i) => step.classList.toggle("to-come", i >= shown));
     this.count.textContent = say`${at + 1} of ${this.slides.length}`;

@@ -11,9 +11,11 @@ import { say } from "./say";
 
 async function start(): Promise<void> {
   for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, say("Copy")));
-  await startFigures();
-  const lecture = document.querySelector<HTMLElement>(".lecture");
-  if (lecture) new Lecture(lecture);
+  // Slides before their figures: a deck is shown, and takes keys, from its first moment.
+  const article = document.querySelector<HTMLElement>(".lecture"),
+    lecture = article && new Lecture(article);
+  await startFigures((host) => lecture?.refit(host));
+  await lecture?.fitAll();
   const lesson = document.querySelector<HTMLElement>(".lesson-text");
   if (lesson?.querySelector(".part h2")) new SlideView(lesson);
   document.documentElement.dataset.ready = "true";
