@@ -13,6 +13,7 @@
 
 #include "scene/base/expected.h"
 #include "scene/base/interrupted.h"
+#include "scene/base/terminal.h"
 
 namespace gnomon::app {
 
@@ -54,7 +55,7 @@ void print_error(const Error& error) {
   print_error(error.file.empty() ? "gnomon: " + error.message() : error.message());
 }
 
-Console::Console(bool quiet) : quiet_(quiet), shows_progress_(!quiet && isatty(STDERR_FILENO) == 1) {}
+Console::Console(bool quiet) : quiet_(quiet), shows_progress_(!quiet && is_terminal(STDERR_FILENO)) {}
 
 Console::~Console() {
   clear_progress();
@@ -95,7 +96,7 @@ bool stdout_takes_colour() {
   const char* terminal = std::getenv("TERM");
   const bool forbidden = no_color != nullptr && *no_color != '\0';
   const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
-  return !forbidden && !dumb && isatty(STDOUT_FILENO) == 1;
+  return !forbidden && !dumb && is_terminal(STDOUT_FILENO);
 }
 
 }  // namespace gnomon::app

@@ -1,5 +1,5 @@
-// What is said of words that the program does not know, with what was probably meant: a slip of the fingers, another program's
-// name for an option, an option of another command.
+// What is said of words that the program does not know, with what was probably meant. That is a slip of the fingers, another
+// program's name for an option, or an option of another command.
 #pragma once
 
 #include <span>

@@ -4,7 +4,7 @@ set(GNOMON_READ_ONLY_DATA ".rodata")  # the section of embedded files
 set(GNOMON_TEXT_OPTIMIZATION -Og)  # of sources that read and write text (GnomonTarget.cmake)
 set(GNOMON_STACK_NOTE "    .section .note.GNU-stack,\"\",@progbits\n")  # of assembler files: no stack that can be executed
 set(GNOMON_SCENE_PLATFORM
-  base/confine.cpp base/interruptible.cpp base/parallel.cpp base/run_apart.cpp base/run_program.cpp base/sort_keys.cpp base/start_threads.cpp
+  base/confine.cpp base/interruptible.cpp base/parallel.cpp base/run_apart.cpp base/run_program.cpp base/sort_keys.cpp base/start_threads.cpp base/terminal.cpp
   files/gltf/gltf_draco.cpp
   files/pictures/image_library.cpp)
 set(GNOMON_RASTER_PLATFORM gl/context.cpp gl/context_egl.cpp gl/context_osmesa.cpp gl/dynamic_library.cpp)

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "scene/base/run_program.h"
+#include "scene/base/terminal.h"
 #include "scene/base/threads.h"
 #include "scene/files/path_status.h"
 #include "scene/files/staged_folder.h"
@@ -107,7 +108,7 @@ void end_process(int exit_code, std::string_view words) {
     StagedFolder::remove_all_at_the_end();
   } catch (const std::bad_alloc&) {  // it stays
   }
-  const std::string_view start = isatty(STDERR_FILENO) == 1 ? "\r\033[Kgnomon: " : "gnomon: ";
+  const std::string_view start = is_terminal(STDERR_FILENO) ? "\r\033[Kgnomon: " : "gnomon: ";
   for (const std::string_view part : {start, words, std::string_view("\n")})
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, part.data(), part.size());
   _exit(exit_code);

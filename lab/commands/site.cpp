@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -52,10 +53,15 @@ Expected<std::vector<SitePage>> engine_files(const std::string& folder) {
   return files;
 }
 
-/// The built-in scenes as cards, each with the picture of its labels, that open the lab.
+constexpr std::string_view first_scene = "acne-floor";  ///< with which the lab is begun
+
+/// The built-in scenes as cards, each with the picture of its labels, that open the lab; that to begin with is the first.
 Expected<std::string> gallery(Console& console) {
   std::string cards;
-  for (const BuiltinScene& scene : builtin_scenes()) {
+  std::vector<BuiltinScene> scenes = builtin_scenes();
+  std::stable_partition(scenes.begin(), scenes.end(),
+                        [](const BuiltinScene& scene) { return scene.name == first_scene; });
+  for (const BuiltinScene& scene : scenes) {
     if (scene.large) continue;
     const auto picture = lab::lessons::labels_png(std::string(scene.name), console);
     if (!picture) return fail(picture.error());
@@ -81,20 +87,22 @@ Expected<SitePage> start_page(const std::vector<SitePage>& lectures, Console& co
 <h1>Gnomon</h1>
 <p>Gnomon renders a scene twice, once as a rasterizer with shadow maps and once as a ray tracer, compares the shadows pixel by
 pixel, and says for every pixel that differs why.</p>
+<p><b><a href="lab.html#scene={0}">Begin here</a></b>: a floor under a sun, in the lab. Turn the constant bias up and down, and see in
+colour what is wrong.</p>
 <ul>
 <li><a href="lab.html">The lab</a>: change every setting of a shadow map, turn the light, and watch what becomes of the shadows. It
 is drawn and compared in this page, on your own machine.</li>
 <li><a href="lessons/index.html">The lessons</a>: shadow maps and ray tracing, with figures to try.</li>
-<li>The lectures: {}. Slides of 90 minutes each, to project and to print.</li>
+<li>The lectures: {1}. Slides of 90 minutes each, to project and to print.</li>
 <li><a href="manual/index.html">The manual</a>: every option, key, label and channel.</li>
 </ul>
 <h2>Scenes to open in the lab</h2>
 <p>The pictures show where the shadow map is right (white and grey) and, in colour, where it errs and why.</p>
 </article>
 <ul class="cards">
-{}</ul>
+{2}</ul>
 )",
-      decks, *cards);
+      first_scene, decks, *cards);
   return SitePage{"index.html", lab::lessons::page_of_text("Gnomon", "", main)};
 }
 
@@ -144,7 +152,7 @@ Expected<ExitCode> run_site(const SiteCommand& command) {
   auto manual = lab::lessons::manual_pages(*chapters);
   if (!manual) return fail(manual.error());
   lab::LabOptions lab;
-  lab.scene = lab.scene.named("acne-floor");
+  lab.scene = lab.scene.named(std::string(first_scene));
   lab.compare.raster.size = {640, 360};
   files->push_back({"lab.html", lab::lab_page(lab, true)});
   for (const embedded::Entry& script : embedded::page_scripts_entries())

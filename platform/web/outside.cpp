@@ -7,6 +7,7 @@
 
 #include "scene/base/run_apart.h"
 #include "scene/base/run_program.h"
+#include "scene/base/terminal.h"
 #include "scene/files/gltf/gltf_data.h"
 #include "scene/files/gltf/gltf_value.h"
 
@@ -46,6 +47,11 @@ Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optiona
   return no_program(words);
 }
 void end_programs() {}
+
+/// Messages leave the module line by line, into a console or a log: a line that is drawn again and again would fill it.
+bool is_terminal(int) {
+  return false;
+}
 
 Expected<void> unpack_draco(GltfDocument& document, GltfData&) {
   for (const JsonValue& mesh : gltf_list(document.json.root, "meshes"))

@@ -306,6 +306,10 @@ async function opensFromTheDisk() {
     await start.locator(".cards img").evaluateAll((all) => all.length > 10 && all.every(({ naturalWidth }) => naturalWidth === 320)),
     "a picture of each scene",
   );
+  const begin = start.locator("main a").first();
+  assert.equal(await begin.textContent(), "Begin here", "what to press first is seen");
+  assert.match(await begin.getAttribute("href"), /^lab\.html#scene=acne-floor$/);
+  assert.match(await start.locator(".cards a").first().getAttribute("href"), /acne-floor$/);
   await close(start);
 }
 

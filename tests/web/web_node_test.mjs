@@ -29,9 +29,8 @@ const runs = [
 ];
 
 function trace(program, words, file) {
-  const done = spawnSync(program[0], [...program.slice(1), "raytrace", ...words, "--size", "160x90", "--quiet", "-o", file], {
-    encoding: "utf8",
-  });
+  const done = spawnSync(program[0], [...program.slice(1), "raytrace", ...words, "--size", "160x90", "-o", file], { encoding: "utf8" });
+  if (done.stderr.includes("\r")) throw new Error(`${program.join(" ")} writes a progress bar into a log: ${JSON.stringify(done.stderr)}`);
   if (done.status !== 0) throw new Error(`${program.join(" ")} raytrace ${words.join(" ")}: exit code ${done.status}: ${done.stderr}`);
   return readExr(file);
 }
