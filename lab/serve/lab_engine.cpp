@@ -120,6 +120,12 @@ std::string LabEngine::path_of(const std::string& scene) const {
   return is_own_scene(scene) ? scene : std::string();
 }
 
+std::string LabEngine::name_of(const std::string& path) const {
+  const auto found = std::find_if(admitted_.rbegin(), admitted_.rend(),
+                                  [&](const auto& entry) { return entry.second == path; });
+  return found != admitted_.rend() ? found->first : path;
+}
+
 bool LabEngine::is_of(const LabWish& wish, const OpenedScene& scene) const {
   return scene.argument.name == path_of(wish.scene) && scene.camera == camera_of(wish.words);
 }
@@ -265,6 +271,7 @@ LabMoment LabEngine::wait(std::uint64_t after, std::chrono::milliseconds most) {
   changed_.wait_for(lock, most, [&] { return now_.number > after; });
   LabMoment moment = now_;
   moment.opening = waiting_.has_value() || !now_.shown->scene;
+  if (now_.shown->scene) moment.scene = name_of(now_.shown->scene->argument.name);
   return moment;
 }
 

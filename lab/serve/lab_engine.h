@@ -34,6 +34,7 @@ struct LabMoment {
   ViewState state;           ///< as it is drawn; revision 0: none yet
   LabOptions options;        ///< the state's words are made with
   std::shared_ptr<const Snapshot> shown;
+  std::string scene;    ///< what a wish for the scene that is shown says; empty: there is none yet
   bool opening = true;  ///< another scene was asked for, or the first is not there yet
   std::string note;     ///< what a preset shows; empty: nothing
   std::string error;    ///< why the newest wish is not drawn; empty: it is, or will be
@@ -60,6 +61,8 @@ class LabEngine {
                                LabOptions& options) const;
   Expected<void> carry_out(const LabWish& wish, const OpenedScene& scene);
   std::string path_of(const std::string& scene) const;
+  /// By which name the path may be opened.
+  std::string name_of(const std::string& path) const;
   /// Whether the wish is for this scene, seen by this camera.
   bool is_of(const LabWish& wish, const OpenedScene& scene) const;
   void notice();

@@ -102,7 +102,7 @@ std::string lab_reading(const LabMoment& moment, const std::vector<std::string>&
   for (const Light& light : state.given.lights) lights.push_back(light.name);
   std::string command = "gnomon";
   for (const std::string& word : compare_words) command += " " + shell_quoted(word);
-  out.update({{"scene", {{"name", shown.scene->name}, {"lights", lights}}},
+  out.update({{"scene", {{"name", shown.scene->name}, {"asked_as", moment.scene}, {"lights", lights}}},
               {"words", setting_words(state, moment.options, shown.scene->argument.name)},
               {"command", command},
               {"size", {{"width", state.setup.size.width}, {"height", state.setup.size.height}}},

@@ -18,6 +18,13 @@ const change = async (page, act) => {
   await page.waitForFunction((url) => location.href !== url, before);
   await done(page);
 };
+const setBias = (page, texels) =>
+  change(page, () =>
+    page
+      .locator("[data-setting=bias] input[type=text]")
+      .fill(texels)
+      .then(() => page.keyboard.press("Enter")),
+  );
 const counts = (page) =>
   page
     .locator("#lab-results .labels tbody tr")
@@ -31,13 +38,7 @@ const command = (page) => page.locator("#lab-command").textContent();
 async function countsWhatTheCommandCounts() {
   const page = await openLab();
   await done(page);
-  for (const texels of ["2", "0"])
-    await change(page, () =>
-      page
-        .locator("[data-setting=bias] input[type=text]")
-        .fill(texels)
-        .then(() => page.keyboard.press("Enter")),
-    );
+  for (const texels of ["2", "0"]) await setBias(page, texels);
   const { classes } = compared({ command: await command(page) }).lights[0];
   assert.ok(classes.acne > 100);
   assert.equal((await counts(page)).acne, classes.acne);
@@ -121,6 +122,31 @@ async function opensFilesAndTheReport() {
   await page.locator("#lab-file").setInputFiles(join(folder, "broken.obj"));
   await page.waitForFunction(() => !document.getElementById("lab-error").hidden, null, { timeout: 300000 });
   assert.match(await page.locator("#lab-error").textContent(), /broken\.obj/);
+  // The state that drew stays: the page's address and its menu are of that, controls work, and a reload is done.
+  await done(page);
+  assert.equal(await page.locator("#lab-scene").inputValue(), "pyramid.obj");
+  assert.match(await page.evaluate(() => location.hash), /^#scene=pyramid\.obj&/);
+  assert.match(await page.locator("#lab-error").textContent(), /broken\.obj/, "why is still said");
+  await setBias(page, "3");
+  assert.ok(await page.locator("#lab-error").isHidden());
+  await page.reload();
+  await done(page);
+  assert.match(await page.title(), /^pyramid/);
+  // So it is for whoever comes by an address of what cannot be opened.
+  for (const [scene, texels] of [
+    ["broken.obj", "4"],
+    ["no-such-scene", "5"],
+  ]) {
+    await page.goto("about:blank");
+    await page.goto(`${lab.url}#scene=${scene}`);
+    await page.waitForFunction(() => !document.getElementById("lab-error").hidden, null, { timeout: 300000 });
+    await done(page);
+    assert.match(await page.locator("#lab-error").textContent(), new RegExp(scene));
+    assert.equal(await page.locator("#lab-scene").inputValue(), "pyramid.obj");
+    await setBias(page, texels);
+    assert.ok(await page.locator("#lab-error").isHidden());
+  }
+  page.offences = page.offences.filter((offence) => !offence.includes("the server responded with a status of 400")); // no-such-scene
   await change(page, () => page.locator("#lab-scene").selectOption("floating-box"));
   assert.ok(await page.locator("#lab-error").isHidden());
   await page.locator("#lab-report").click();

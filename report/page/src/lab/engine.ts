@@ -72,7 +72,7 @@ export interface TimeWords {
 
 /** What there is of a state. */
 export interface Drawn {
-  scene: { name: string; lights: string[] };
+  scene: { name: string; asked_as: string; lights: string[] }; // asked_as: what a wish for it says
   words: string[]; // of a command line, by which the state comes back
   command: string;
   size: { width: number; height: number };

@@ -45,11 +45,13 @@ class Lab {
   private asked = 0; // the moment from which readings are of this page's wish
   private asking = false;
   private again = false; // something was changed meanwhile
+  private refused = ""; // why the newest wish was not taken; empty: it was
   private waits = 0; // the timer of patience
   private preset: number | undefined;
   private seen = 0;
   private newest: Reading | null = null;
   private reading: (Reading & Drawn) | null = null; // the newest with something drawn
+  private drawn: Options = new Map(); // the options that it was drawn with
   private readonly files = new Set<string>();
 
   private readonly part = (id: string): HTMLElement => document.getElementById(id)!;
@@ -211,10 +213,10 @@ class Lab {
       .then(
         (number) => {
           this.asked = number;
-          this.fail("");
+          this.fail((this.refused = ""));
         },
         (error: Error) => {
-          this.fail(error.message);
+          this.fail((this.refused = error.message));
           if (this.reading) this.settings.show(this.reading);
         },
       )
@@ -264,7 +266,7 @@ class Lab {
     const isOther = this.asked > 0 && reading.client !== this.engine.client; // a page that has asked for nothing shows what is there
     this.part("lab-other").hidden = !isOther;
     this.part("lab-opening").hidden = !reading.opening;
-    if (reading.number >= this.asked && !this.asking) this.fail(reading.error);
+    if (reading.number >= this.asked && !this.asking) this.fail(this.refused || reading.error);
     if (reading.note !== "") this.say(reading.note);
     if (!isDrawn(reading) || reading.opening) return;
     this.reading = reading;
@@ -290,12 +292,17 @@ class Lab {
     this.markReport(reading.revision);
   }
 
-  // What the engine made of the wish: as a command line would say it.
+  // What the engine made of the wish: as a command line would say it. A scene that cannot be opened leaves the state that is drawn.
   private adopt(reading: Reading & Drawn): void {
+    if (this.state.scene !== reading.scene.asked_as) {
+      this.state = { scene: reading.scene.asked_as, options: this.drawn };
+      this.offer(this.state.scene);
+    }
     const own = new Set(poseOptions),
       kept = [...this.state.options].filter(([name]) => own.has(name));
     this.state.options = optionsOf(reading.words);
     for (const [name, value] of kept) if (!this.state.options.has(name) && name !== "light") this.state.options.set(name, value);
+    this.drawn = new Map(this.state.options);
     history.replaceState(null, "", addressOf(this.state));
     this.settings.show(reading);
     this.light.show(reading);
