@@ -15,7 +15,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/scene/files/scene.schema.json" "${PROJECT_S
   DESTINATION "${CMAKE_INSTALL_DATADIR}/gnomon/schema")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" FILES_MATCHING PATTERN "*.glsl" PATTERN "*.frag" PATTERN "*.vert" PATTERN "*.h")
 # What judge starts for a frame that RenderDoc recorded: where judge/recorded_frame.cpp looks from the folder of the program.
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/renderdoc" DESTINATION share/gnomon FILES_MATCHING PATTERN "*.py" PATTERN "*.json" PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/adapters/renderdoc" DESTINATION share/gnomon FILES_MATCHING PATTERN "*.py" PATTERN "*.js" PATTERN "*.json" PATTERN "__pycache__" EXCLUDE)
 
 # gnomon_install_printed(OPTION FOLDER FILE): what the program prints for OPTION; FOLDER is below the prefix.
 function(gnomon_install_printed option folder file)

@@ -1,6 +1,7 @@
 """Starts a program with RenderDoc in it, records one frame and ends the program: what F12 does, where nobody sits at a window.
 
 /usr/bin/python3 adapters/renderdoc/record.py -o FRAME.rdc [--frame N] PROGRAM WORDS...
+/usr/bin/python3 adapters/renderdoc/record.py -o FRAME.rdc --page URL          a web page, in a browser without a screen
 """
 import argparse
 import os
@@ -126,13 +127,42 @@ def _queue(control, number):
         control.QueueCapture(at, 1)
 
 
+def _size(words):
+    width, _, height = words.partition("x")
+    if not (width.isdigit() and height.isdigit() and 16 <= int(width) <= 8192 and 16 <= int(height) <= 8192):
+        raise argparse.ArgumentTypeError("needs WIDTHxHEIGHT, 16 to 8192 each")
+    return int(width), int(height)
+
+
+def _record_page(given):
+    """Exit codes are those of gnomon: 3 a page without a frame that has shadows, 4 a file that cannot be written, 5 what is not installed.
+    Lines begin with what they are: "note: ", "engine: " or "error: "."""
+    from gnomon_page import programs, recording
+    from gnomon_page.errors import PageError
+
+    programs.end_on_signals()
+    try:
+        recording.record(given.page, given.output, given.size, given.wait, lambda line: print(line, flush=True))
+    except PageError as error:
+        print(f"error: {error}", flush=True)
+        return error.code
+    return 0
+
+
 def main():
     parser = argparse.ArgumentParser(prog="record.py", description="Record one frame of a program with RenderDoc.")
     parser.add_argument("-o", "--output", metavar="FRAME.rdc", required=True)
     parser.add_argument("--frame", type=int, default=12, metavar="N", help="which frame, counted from the program's start, or the next that can be had [default 12]")
-    parser.add_argument("program")
+    parser.add_argument("--page", metavar="URL", help="a page of your own, by its address or file, in place of a program: the first frame with shadows")
+    parser.add_argument("--size", type=_size, default=(960, 540), metavar="WxH", help="the page's window [default 960x540]")
+    parser.add_argument("--wait", type=float, default=120, metavar="S", help="seconds in which the page must draw shadows [default 120]")
+    parser.add_argument("program", nargs="?")
     parser.add_argument("words", nargs=argparse.REMAINDER)
     given = parser.parse_args()
+    if bool(given.page) == bool(given.program):
+        parser.error("needs a program, or --page URL")
+    if given.page:
+        return _record_page(given)
     record(given.program, given.words, given.frame, given.output)
 
 

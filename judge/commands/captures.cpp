@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -16,15 +17,27 @@
 namespace gnomon::app {
 namespace {
 
+/// A page's frame belongs to its capture.
+Expected<void> keep_frame(const std::string& frame, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::copy_file(frame, folder + "/frame.rdc", error);
+  if (error) return fail(ErrorKind::cannot_write, folder + "/frame.rdc: " + error.message());
+  return {};
+}
+
 /// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.
-Expected<void> make_capture(std::string& path, const std::string& light, const std::string& folder,
-                            Console& console) {
+/// `page`: of which it was recorded, or none.
+Expected<void> make_capture(std::string& path, const PageFrame* page, const std::string& light,
+                            const std::string& folder, Console& console) {
   const OutputGuard whole_outputs;
   auto staged = StagedFolder::open(folder);
   if (!staged) return fail(staged.error());
   console.progress("replaying the frame", 0.0);
-  const auto found = judge::capture_recorded_frame(path, staged->path(), light);
+  const auto found =
+      judge::capture_recorded_frame(path, staged->path(), light, page != nullptr ? page->renderer : "");
   if (!found) return fail(found.error());
+  if (page != nullptr)
+    if (const auto kept = keep_frame(path, staged->path()); !kept) return kept;
   if (const auto sealed = staged->seal(std::vector{path}); !sealed) return sealed;
   if (const auto published = staged->publish("capture.json"); !published) return published;
   for (const std::string& finding : *found) console.note(finding);
@@ -38,11 +51,20 @@ std::string unused_name(const std::string& base, std::set<std::string>& taken) {
   return name;
 }
 
-/// A letter, digit, dot, dash or underscore stays; what else a light's name has becomes a dash.
-std::string file_name_of(std::string light) {
-  for (char& c : light)
+/// A letter, digit, dot, dash or underscore stays; what else a name has becomes a dash.
+std::string file_name_of(std::string name) {
+  for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '_') c = '-';
-  return light;
+  return name;
+}
+
+/// "town" of http://localhost:8000/games/town.html?fog=1, "localhost-8000" of http://localhost:8000/.
+std::string name_of_page(const std::string& address) {
+  const std::string whole = address.substr(address.find("://") + 3);
+  const std::filesystem::path place(whole.substr(0, whole.find_first_of("?#")));
+  const std::filesystem::path last = place.has_filename() ? place : place.parent_path();
+  return file_name_of(place.has_parent_path() && place.has_filename() ? last.stem().string()
+                                                                      : last.filename().string());
 }
 
 }  // namespace
@@ -82,7 +104,17 @@ RunFiles inputs_of(const judge::Capture& capture) {
   return files;
 }
 
+Expected<void> record_frame(const std::string& page, PageFrame& frame, Console& console) {
+  console.progress("recording the page", 0.0);
+  const auto engine =
+      judge::record_page(page, frame.path(), [&](const std::string& said) { console.note(said); });
+  if (!engine) return fail(engine.error());
+  frame.renderer = engine->empty() ? name_of(page) : *engine;
+  return {};
+}
+
 std::string name_of(const std::string& path) {
+  if (path.find("://") != std::string::npos) return name_of_page(path);
   const std::filesystem::path file(path);
   if (file.stem() != "capture" || !file.parent_path().has_filename()) return file.stem().string();
   std::error_code unknown;  // the current folder: then the path as it was given
@@ -92,14 +124,24 @@ std::string name_of(const std::string& path) {
 
 Expected<void> make_captures(std::vector<std::string>& captures, bool alone, CaptureOptions& options,
                              std::string& folder, Console& console) {
-  if (std::ranges::none_of(captures, judge::is_recorded_frame)) return {};
+  const auto is_to_be_made = [](const std::string& word) {
+    return judge::is_recorded_frame(word) || judge::is_page(word);
+  };
+  if (std::ranges::none_of(captures, is_to_be_made)) return {};
   const std::string light = std::exchange(options.given.light, "");
   const bool single = captures.size() == 1 && alone;
   if (folder.empty()) folder = single ? "out/" + name_of(captures.front()) : "out/judge";
   for (std::string& path : captures) {
-    if (!judge::is_recorded_frame(path)) continue;
+    if (!is_to_be_made(path)) continue;
     const std::string place = single ? folder + "-capture" : folder + "-captures/" + name_of(path);
-    if (const auto made = make_capture(path, light, place, console); !made) return made;
+    std::optional<PageFrame> frame;
+    if (judge::is_page(path)) {
+      frame.emplace();
+      if (const auto recorded = record_frame(path, *frame, console); !recorded) return recorded;
+      path = frame->path();
+    }
+    if (const auto made = make_capture(path, frame ? &*frame : nullptr, light, place, console); !made)
+      return made;
   }
   return {};
 }

@@ -83,10 +83,16 @@ Expected<JudgedScene> judge_one(const JudgeCommand& command, const judge::Captur
   return out;
 }
 
-Expected<ExitCode> list_lights(const JudgeCommand& command) {
-  if (command.captures.size() != 1 || !judge::is_recorded_frame(command.captures.front()))
-    return fail(ErrorKind::usage, "--list: needs one frame that RenderDoc recorded (.rdc)");
-  const auto lights = judge::recorded_lights(command.captures.front());
+Expected<ExitCode> list_lights(const JudgeCommand& command, Console& console) {
+  const std::string word = command.captures.size() == 1 ? command.captures.front() : "";
+  if (!judge::is_recorded_frame(word) && !judge::is_page(word))
+    return fail(ErrorKind::usage,
+                "--list: needs one frame that RenderDoc recorded (.rdc), or the address of a page");
+  std::optional<PageFrame> frame;
+  if (judge::is_page(word))
+    if (const auto recorded = record_frame(word, frame.emplace(), console); !recorded)
+      return fail(recorded.error());
+  const auto lights = judge::recorded_lights(frame ? frame->path() : word);
   if (!lights) return fail(lights.error());
   for (const std::string& light : *lights) print_data(light + "\n");
   return ExitCode::done;
@@ -202,7 +208,7 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
   command.options.raytrace.seed = command.seed;
   if (command.captures.empty() && command.suite.empty() && !command.parts.any)
     return fail(ErrorKind::usage, "judge: needs a capture (a file, or its parts as options)");
-  if (command.list) return list_lights(command);
+  if (command.list) return list_lights(command, console);
   if (const auto made = make_captures(command.captures, command.suite.empty(), command.parts,
                                       command.output.folder, console);
       !made)
@@ -221,11 +227,12 @@ Expected<ExitCode> run_judge(JudgeCommand& command) {
 }
 
 void add_options(CLI::App& app, JudgeCommand& command) {
-  app.add_option("CAPTURE", command.captures,
-                 "captures (gnomon/capture/2 or 1, docs/judge.md), or frames that RenderDoc recorded, whose "
-                 "captures are "
-                 "made in a folder beside the verdict's [may be left out where the options say it all]")
-      ->type_name("CAPTURE.json|FRAME.rdc");
+  app.add_option(
+         "CAPTURE", command.captures,
+         "captures (gnomon/capture/2 or 1, docs/judge.md); frames that RenderDoc recorded, or web pages "
+         "of your own, whose captures are made in a folder beside the verdict's [may be left out where "
+         "the options say it all]")
+      ->type_name("CAPTURE.json|FRAME.rdc|URL");
   app.add_flag("--list", command.list,
                "print the lights of a recorded frame that have a shadow map; --light N judges that one alone "
                "[default off]");
@@ -263,6 +270,7 @@ GNOMON_COMMAND(
       "gnomon judge a.json b.json -o verdicts      one table, the worst first\n"
       "gnomon judge frame.json --light sun         one of a capture's lights\n"
       "gnomon judge frame.rdc --light 2            of any engine, by RenderDoc\n"
+      "gnomon judge http://localhost:8000/         a web page of your own\n"
       "gnomon judge --renderer mine --scene model.glb --size 640x360 --visibility shadow.png");
   const auto command = std::make_shared<JudgeCommand>();
   command->command_line = invocation.command_line;

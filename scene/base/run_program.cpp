@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -97,6 +98,23 @@ Expected<int> wait_for(pid_t child, const Stop& stop) {
   }
 }
 
+/// Hands over the whole lines of a file that another process writes.
+struct LineReader {
+  int file;
+  const std::function<void(std::string_view)>& on_line;
+  off_t place = 0;
+  std::string begun{};
+
+  void read() {
+    std::array<char, 4096> piece{};
+    for (ssize_t count = 0; (count = pread(file, piece.data(), piece.size(), place)) > 0; place += count) {
+      begun.append(piece.data(), static_cast<std::size_t>(count));
+      for (std::size_t end = 0; (end = begun.find('\n')) != std::string::npos; begun.erase(0, end + 1))
+        on_line(std::string_view(begun).substr(0, end));
+    }
+  }
+};
+
 }  // namespace
 
 WaitedFor::WaitedFor() {
@@ -131,6 +149,7 @@ Expected<int> run_program(std::vector<std::string> words, std::optional<double> 
   const Stopwatch watch;
   bool late = false;
   const auto code = wait_for(child, [&] {
+    if (start.meanwhile) start.meanwhile();
     late = longest_s && watch.elapsed_ms() > 1e3 * *longest_s;
     return late || process_ends || is_interrupted();
   });
@@ -140,12 +159,17 @@ Expected<int> run_program(std::vector<std::string> words, std::optional<double> 
   return code;
 }
 
-Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double> longest_s) {
+Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double> longest_s,
+                                    const std::function<void(std::string_view)>& on_line) {
   constexpr std::size_t longest_said = 1 << 20;
   const int file = memfd_create("gnomon-said", MFD_CLOEXEC);
   if (file < 0)
     return fail(ErrorKind::graphics, fmt::format("cannot make a file in memory: {}", std::strerror(errno)));
-  const auto code = run_program(std::move(words), longest_s, file);
+  LineReader lines{file, on_line};
+  ProgramStart start;
+  if (on_line) start.meanwhile = [&] { lines.read(); };
+  const auto code = run_program(std::move(words), longest_s, file, start);
+  if (on_line) lines.read();
   ProgramEnd end{code.value_or(0), std::string(longest_said, '\0')};
   const ssize_t read = pread(file, end.said.data(), end.said.size(), 0);
   const int error = errno;

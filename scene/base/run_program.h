@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/base/expected.h"
@@ -15,6 +16,8 @@ struct ProgramStart {
   std::vector<int> descriptors{};  ///< this program's, which it has, too
   /// Called on a thread of its own, which then starts the program: what that thread has given up, the program has not either.
   std::function<void()> give_up{};
+  /// Called every few milliseconds while the program runs.
+  std::function<void()> meanwhile{};
 };
 
 /// Runs a program of the PATH with these words, of which the first is its name, and waits for its end. What it says goes to
@@ -32,9 +35,11 @@ struct ProgramEnd {
   std::string said{};
 };
 
-/// As run_program(), but what the program says is kept and returned. ErrorKind::graphics, too, where there is no memory for it.
+/// As run_program(), but what the program says is kept and returned. `on_line` is called with each line as it comes.
+/// ErrorKind::graphics, too, where there is no memory for it.
 Expected<ProgramEnd> run_and_listen(std::vector<std::string> words,
-                                    std::optional<double> longest_s = std::nullopt);
+                                    std::optional<double> longest_s = std::nullopt,
+                                    const std::function<void(std::string_view)>& on_line = {});
 
 /// While one lives, end_programs() waits for its end, some seconds at most.
 class WaitedFor {

@@ -42,6 +42,10 @@ set_tests_properties(renderdoc_designs_test PROPERTIES SKIP_RETURN_CODE 77 TIMEO
 add_test(NAME renderdoc_engine_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_engine_test.py"
   $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_engine")
 set_tests_properties(renderdoc_engine_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1500)
+# The same of web pages, as far as a browser that RenderDoc can record is installed.
+add_test(NAME renderdoc_page_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/renderdoc_page_test.py"
+  $<TARGET_FILE:gnomon_program> "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/renderdoc_page")
+set_tests_properties(renderdoc_page_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 
 # gnomon grade: answers that are alike; and the program on shaders with known faults.
 gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp LIBS gnomon::grade)

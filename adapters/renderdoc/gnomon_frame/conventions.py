@@ -20,9 +20,11 @@ def opengl(lower_left=True, minus_one=True):
     return Conventions(minus_one, lower_left, True)
 
 
-def vulkan(viewport_height):
-    """Vulkan, whose y points down unless the viewport's height is negative."""
-    return Conventions(False, viewport_height < 0, viewport_height >= 0)
+def vulkan(viewport_height, minus_one=False):
+    """Vulkan, whose y points down unless the viewport's height is negative. Depths from -1 (VK_EXT_depth_clip_control) are those of OpenGL on
+    top of Vulkan (ANGLE, Zink), where y = 1 is the top of what is shown though it lies in the last row."""
+    down = viewport_height >= 0
+    return Conventions(minus_one, minus_one or not down, down)
 
 
 DIRECT3D = Conventions(False, True, False)

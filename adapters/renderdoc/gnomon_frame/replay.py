@@ -164,7 +164,7 @@ class Frame:
             bias = s.rasterizer
             on = getattr(bias, "depthBiasEnable", True)
             depth = s.depthStencil
-            return (conventions.vulkan(view.height), depth.depthFunction, depth.depthTestEnable and depth.depthWriteEnable,
+            return (conventions.vulkan(view.height, s.viewportScissor.depthNegativeOneToOne), depth.depthFunction, depth.depthTestEnable and depth.depthWriteEnable,
                     (bias.depthBias, bias.slopeScaledDepthBias, bias.depthBiasClamp) if on else (0, 0, 0))
         s = self.controller.GetD3D11PipelineState() if pipe.IsCaptureD3D11() else self.controller.GetD3D12PipelineState()
         bias = s.rasterizer.state
