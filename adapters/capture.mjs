@@ -1,7 +1,7 @@
 // Draws a glTF scene with an engine and writes a capture for `gnomon judge`:
 //   node adapters/capture.mjs ENGINE SCENE -o DIR [--size 640x360] [--light NAME] [--NAME VALUE ...]
 // ENGINE is a file of adapters/engines: a page's module, run in headless Chromium with WebGL 2, or a script for Blender; or one of
-// recorded.mjs, whose frames RenderDoc records.
+// recorded.mjs, whose frames RenderDoc records: with -page after its name a module draws as a page does, and its map is captured, too.
 // Every further option is one of that engine's own (see its head).
 // Writes DIR/capture.json, the pictures that it names, and DIR/picture.png, what the engine itself shows.
 import { spawnSync } from "node:child_process";
@@ -12,16 +12,10 @@ import { basename, dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { exr } from "./exr.mjs";
+import { fileAt, html } from "./pages.mjs";
 import { captureRecorded, isRecorded } from "./recorded.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const importMap = JSON.stringify({
-  imports: {
-    three: "/node_modules/three/build/three.module.js",
-    "three/addons/": "/node_modules/three/examples/jsm/",
-    playcanvas: "/node_modules/playcanvas/build/playcanvas.mjs",
-  },
-});
 const stop = (text) => {
   console.error(`capture: ${text}`);
   process.exit(2);
@@ -72,17 +66,10 @@ async function openPage(job) {
   const page = await browser.newPage({ viewport: { width: job.width, height: job.height } });
   page.on("pageerror", (error) => stop(`the page failed: ${error.message}`));
   page.on("console", (message) => message.type() === "error" && console.error(`${job.engine}: ${message.text()}`));
-  const types = { js: "text/javascript", mjs: "text/javascript", html: "text/html", wasm: "application/wasm", glb: "model/gltf-binary" };
   await page.route("**/*", (route) => {
     const path = decodeURIComponent(new URL(route.request().url()).pathname);
-    if (path === "/")
-      return route.fulfill({
-        contentType: "text/html",
-        body: `<!doctype html><script type="importmap">${importMap}</script><body style="margin:0"><canvas></canvas>`,
-      });
-    const file = path.startsWith("/scene/") ? join(dirname(job.scene), path.slice(7)) : join(here, path);
-    if (!existsSync(file)) return route.fulfill({ status: 404 });
-    return route.fulfill({ contentType: types[file.split(".").pop()] || "application/octet-stream", body: readFileSync(file) });
+    if (path === "/") return route.fulfill({ contentType: "text/html", body: html() });
+    return route.fulfill(fileAt(path, job.scene) ?? { status: 404 });
   });
   await page.goto("http://capture/");
   return { browser, page };
@@ -207,7 +194,7 @@ if (isRecorded(job.engine) && job.light !== undefined)
   stop("--light: a frame's lights are numbered, --light NUMBER of adapters/renderdoc takes one");
 try {
   if (isRecorded(job.engine)) {
-    captureRecorded(job);
+    await captureRecorded(job);
     console.error(`${job.engine}: ${join(job.folder, "capture.json")}`);
     process.exit(0);
   }

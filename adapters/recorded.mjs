@@ -1,9 +1,10 @@
 // Engines of this machine whose frames RenderDoc records: adapters/renderdoc makes the captures, with map.
-import { spawnSync } from "node:child_process";
+import { spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { serve } from "./pages.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const python = "/usr/bin/python3";
@@ -25,6 +26,8 @@ const programs = {
   },
 };
 const names = { godot: "Godot 3", quick3d: "Qt Quick 3D" };
+/** Modules of engines/ that show a page, by the engine's word, and what they are called. */
+const pages = { "three-page": "three.js", "babylon-page": "Babylon.js", "playcanvas-page": "PlayCanvas", "filament-page": "Filament" };
 const software = {
   LIBGL_ALWAYS_SOFTWARE: "1",
   VK_ICD_FILENAMES: "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
@@ -32,29 +35,40 @@ const software = {
   QSG_RENDER_LOOP: "basic",
 };
 
-export const isRecorded = (engine) => engine in programs;
+export const isRecorded = (engine) => engine in programs || engine in pages;
 
-function run(words) {
-  const [program, ...rest] = ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24", ...words];
-  const done = spawnSync(program, rest, { encoding: "utf8", env: { ...process.env, ...software } });
-  if (done.error) throw new Error(`${program} cannot be run: ${done.error.message}`);
-  if (done.status !== 0)
-    throw new Error(
-      `${done.stdout}${done.stderr}`
-        .trim()
-        .split("\n")
-        .findLast((line) => /^(error|record): /.test(line)) || `${words[1]} ended with ${done.status}`,
-    );
+/** Runs a program to its end; a server of this process answers meanwhile. */
+async function run([program, ...words]) {
+  const child = spawn(program, words, { env: { ...process.env, ...software }, stdio: ["ignore", "pipe", "pipe"] });
+  let said = "";
+  for (const stream of [child.stdout, child.stderr]) stream.on("data", (text) => (said += text));
+  const status = await new Promise((done, failed) => {
+    child.on("error", (error) => failed(new Error(`${program} cannot be run: ${error.message}`)));
+    child.on("close", done);
+  });
+  if (status === 0) return;
+  const lines = said.trim().split("\n");
+  throw new Error(lines.findLast((line) => /^(error|record): /.test(line)) || `${words.join(" ")} ended with ${status}`);
+}
+
+const recorder = ["-B", join(here, "renderdoc", "record.py"), "-o"];
+const onDisplay = ["xvfb-run", "--auto-servernum", "--server-args=-screen 0 1280x1024x24", python];
+
+async function record(job, frame) {
+  if (job.engine in programs) return run([...onDisplay, ...recorder, frame, ...programs[job.engine](job)]);
+  const { address, close } = await serve(job.engine.replace("-page", ""), job);
+  const size = `${job.width}x${job.height}`;
+  return run([python, ...recorder, frame, "--size", size, "--page", address]).finally(close);
 }
 
 /** Writes the capture's folder of a job. */
-export function captureRecorded(job) {
+export async function captureRecorded(job) {
   mkdirSync(job.folder, { recursive: true });
   const folder = mkdtempSync(join(tmpdir(), "gnomon-frame-")),
     frame = join(folder, "frame.rdc");
   try {
-    run([python, "-B", join(here, "renderdoc", "record.py"), "-o", frame, ...programs[job.engine](job)]);
-    run([python, "-B", join(here, "renderdoc"), frame, "-o", job.folder, "--name", names[job.engine]]);
+    await record(job, frame);
+    await run([...onDisplay, "-B", join(here, "renderdoc"), frame, "-o", job.folder, "--name", names[job.engine] ?? pages[job.engine]]);
   } finally {
     rmSync(folder, { recursive: true });
   }

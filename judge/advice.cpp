@@ -41,7 +41,7 @@ struct CastersConstant {
 };
 
 CastersConstant casters_constant(const CapturedCasterBias& bias, double unit_world) {
-  if (bias.constant_world != 0.0)
+  if (bias.constant_world != 0.0 || bias.normal_offset_world != 0.0)  // a shader moves them
     return {"map[].caster_bias.constant_world", bias.constant_world, 1.0, "world units"};
   return {"map[].caster_bias.constant", bias.constant, unit_world, "stored depth"};
 }
@@ -141,13 +141,17 @@ void Advisor::propose_on_casters() {
                                   [](const CapturedCasterBias& face) { return face.moves(); });
   const double unit = test().unit_world, now = search_.now;
   const CastersConstant said = casters_constant(*moved, unit);
-  const auto change_to = [&](double slope, const AdvisedSetting& constant) {
-    CapturedCasterBias bias = *moved;
-    bias.slope = slope;
-    (bias.constant_world != 0.0 ? bias.constant_world : bias.constant) = constant.instead;
+  const bool in_world = moved->constant_world != 0.0 || moved->normal_offset_world != 0.0;
+  const auto change_of = [&, in_world](CapturedCasterBias bias, const AdvisedSetting& constant) {
+    (in_world ? bias.constant_world : bias.constant) = constant.instead;
     return [bias, this](raster::LightRecord& one) {
       one.map.depth = with_caster_bias(record().map, casters_, bias);
     };
+  };
+  const auto change_to = [&](double slope, const AdvisedSetting& constant) {
+    CapturedCasterBias bias = *moved;
+    bias.slope = slope;
+    return change_of(bias, constant);
   };
   TestedRecord tested = redrawing_.as_drawn();
   const GoodConstant best = search_.best_beside(tested);
@@ -157,8 +161,26 @@ void Advisor::propose_on_casters() {
   propose({first, change_to(moved->slope, alone), now});
   double least = best.left;
   std::optional<Candidate> pair;
+  if (moved->normal_offset_world != 0.0) {
+    CapturedCasterBias upright = *moved;
+    upright.normal_offset_world = 0.0;
+    tested.change(change_of(upright, {said.setting, said.now, said.now, said.unit}));
+    if (const GoodConstant there = search_.best_beside(tested); there.left < worth_changing * least) {
+      least = there.left;
+      Advice advice;
+      static_cast<AdvisedSetting&>(advice) = {"map[].caster_bias.normal_offset_world",
+                                              moved->normal_offset_world,
+                                              0.0,
+                                              "world units",
+                                              1.0,
+                                              record().texel_world};
+      advice.with = said.instead((there.stored - now) * unit, record().texel_world);
+      pair = Candidate{advice, change_of(upright, *advice.with), now};
+    }
+  }
   for (const double slope : slopes_to_try) {
-    if (slope == moved->slope) continue;
+    // A shader that moves casters along their normals has no slope.
+    if (slope == moved->slope || moved->normal_offset_world != 0.0) continue;
     tested.change(change_to(slope, {said.setting, said.now, said.now, said.unit}));
     const GoodConstant there = search_.best_beside(tested);
     if (!(there.left < worth_changing * least)) continue;
@@ -257,7 +279,7 @@ std::vector<compare::EngineUnit> units_with(const Advice& advice, double Advised
 }  // namespace
 
 std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view engine, const Advice& advice,
-                                                               LightType light,
+                                                               LightType light, raster::Technique technique,
                                                                const raster::LightRecord& record,
                                                                const World& world) {
   std::vector<std::pair<std::string, double>> out;
@@ -267,9 +289,14 @@ std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view 
   if (!advice.layers.empty() && !in_texels) return out;
   const auto now = units_with(advice, &AdvisedSetting::now, light, record, world);
   const auto instead = units_with(advice, &AdvisedSetting::instead, light, record, world);
+  const bool filters = technique == raster::Technique::pcf || technique == raster::Technique::pcss;
+  const auto of_filter = [&](const compare::EngineUnit& unit) {
+    return filters && unit.part == compare::BiasPart::constant;
+  };
   for (std::size_t i = 0; i < std::min(now.size(), instead.size()); ++i)
     if (instead[i].engine == engine && instead[i].value && instead[i].value != now[i].value)
-      out.emplace_back(instead[i].setting, *instead[i].value);
+      out.emplace_back(instead[i].setting,
+                       *instead[i].value * (of_filter(instead[i]) ? known->filtered_constant : 1.0));
   return out;
 }
 

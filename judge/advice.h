@@ -17,10 +17,11 @@ std::vector<compare::Advice> give_advice(const FrameInput& input, const raster::
                                          const compare::LightComparison& light, const CasterBiases& casters,
                                          double drawn_constant);
 
-/// What an advice changes in an engine's settings (EngineUnit::engine); none where it sets the layers apart, or the engine
-/// has no number for it.
+/// What an advice changes in an engine's settings (EngineUnit::engine) with this technique; none where it sets the layers apart,
+/// or the engine has no number for it.
 std::vector<std::pair<std::string, double>> settings_in_engine(std::string_view engine,
                                                                const compare::Advice& advice, LightType light,
+                                                               raster::Technique technique,
                                                                const raster::LightRecord& record,
                                                                const World& world);
 

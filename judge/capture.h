@@ -52,7 +52,11 @@ struct CapturedCasterBias {
   double constant_world = 0.0;  ///< world units along the light ray
   double slope = 0.0;           ///< raster::Bias::caster_slope: the factor of glPolygonOffset
   double clamp = 0.0;  ///< the most that `constant` and `slope` add, below 0 the least; 0: without limit
-  bool moves() const { return constant != 0.0 || constant_world != 0.0 || slope != 0.0; }
+  double normal_offset_world = 0.0;                 ///< against their normals
+  BiasAngle normal_offset_angle = BiasAngle::none;  ///< no tangent
+  bool moves() const {
+    return constant != 0.0 || constant_world != 0.0 || slope != 0.0 || normal_offset_world != 0.0;
+  }
   bool operator==(const CapturedCasterBias&) const = default;
 };
 

@@ -166,9 +166,15 @@ void CaptureReader::read_layer(const JsonNode& node) {
 
 void CaptureReader::read_caster_bias(const JsonNode& node, CapturedLayer& layer) {
   since_2(node, "caster_bias");
-  const JsonObject object(node, {"constant", "constant_world", "slope", "clamp"});
-  const CapturedCasterBias bias{object.number("constant", 0.0), object.number("constant_world", 0.0),
-                                object.number("slope", 0.0), object.number("clamp", 0.0)};
+  const JsonObject object(
+      node, {"constant", "constant_world", "slope", "clamp", "normal_offset_world", "normal_offset_angle"});
+  const CapturedCasterBias bias{
+      object.number("constant", 0.0),
+      object.number("constant_world", 0.0),
+      object.number("slope", 0.0),
+      object.number("clamp", 0.0),
+      object.number("normal_offset_world", 0.0),
+      angle_of(object, "normal_offset_angle", {"none", "sine", "one_minus_cosine"})};
   layer.caster_bias = bias;
 }
 

@@ -307,7 +307,8 @@ Capture in_world_of_scene(Capture capture, const Mat3& scene_from_captured) {
     if (layer.bias) layer.bias->normal_offset_world *= scale;
     if (layer.convention && is_linear(*layer.convention))
       layer.range = scale * layer.range.value_or(Vec2(0.0, 1.0));
-    if (layer.caster_bias) layer.caster_bias->constant_world *= scale;
+    if (layer.caster_bias)
+      layer.caster_bias->constant_world *= scale, layer.caster_bias->normal_offset_world *= scale;
   }
   if (capture.fade) capture.fade->from *= scale, capture.fade->to *= scale;
   if (capture.bias) capture.bias->normal_offset_world *= scale;

@@ -8,12 +8,7 @@
 #include "judge/capture_pictures.h"
 
 namespace gnomon::judge {
-namespace {
 
-using raster::LightRecord;
-using raster::MapLookup;
-
-/// Returns the factor >= 0 at the angle with this cosine, which is at least 0; infinite for the tangent of a right angle.
 double angle_factor(BiasAngle form, double cosine) {
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   switch (form) {
@@ -28,6 +23,11 @@ double angle_factor(BiasAngle form, double cosine) {
   }
   return 1.0;
 }
+
+namespace {
+
+using raster::LightRecord;
+using raster::MapLookup;
 
 /// Returns by how much the renderer moves a receiver along its normal, world units.
 double offset_of(const CapturedTest& test, int face, double cosine) {

@@ -19,6 +19,9 @@ namespace gnomon::judge {
 struct FrameInput;
 struct TestSuspect;
 
+/// Returns the factor >= 0 at the angle with this cosine, which is at least 0; infinite for the tangent of a right angle.
+double angle_factor(BiasAngle form, double cosine);
+
 /// A layer's stored numbers, rows as in its picture.
 struct LayerNumbers {
   ImageSize size;

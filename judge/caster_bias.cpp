@@ -35,8 +35,17 @@ double clamped(double offset, double clamp) {
 /// A surface in a texel, as the map's own numbers.
 struct Held {
   double depth = 0.0, stored = 0.0, slope = 0.0;
-  double step = 0.0;  ///< of the map's format there
+  double step = 0.0;    ///< of the map's format there
+  double cosine = 1.0;  ///< of the angle between its normal and the light
 };
+
+/// How much later a ray meets a plane that was moved against its normal.
+double against_normal(const CapturedCasterBias& bias, double cosine) {
+  constexpr double grazing = 0.02;  // below it the outline moves, and not the depth
+  if (bias.normal_offset_world == 0.0) return 0.0;
+  return bias.normal_offset_world * angle_factor(bias.normal_offset_angle, cosine) /
+         std::max(cosine, grazing);
+}
 
 class FaceReader {
  public:
@@ -48,13 +57,12 @@ class FaceReader {
     if (!(surface.depth > face.near_depth && surface.depth < face.far_depth)) return std::nullopt;
     if (!std::isfinite(surface.stored_slope)) return std::nullopt;
     return Held{surface.depth, stored_from_depth(view_, face_, key.row() + 0.5, surface.depth),
-                surface.stored_slope, depths_.step(key, surface.depth)};
+                surface.stored_slope, depths_.step(key, surface.depth), surface.cosine};
   }
   double moved(const Held& held, TexelKey key, const CapturedCasterBias& bias) const {
     double stored = held.stored;
-    if (bias.constant_world != 0.0)
-      stored =
-          stored_from_depth(view_, face_, key.row() + 0.5, held.depth + bias.constant_world * along(key));
+    if (const double by = bias.constant_world + against_normal(bias, held.cosine); by != 0.0)
+      stored = stored_from_depth(view_, face_, key.row() + 0.5, held.depth + by * along(key));
     const double offset = clamped(bias.constant + bias.slope * held.slope, bias.clamp);
     return std::clamp(stored + away_from_light(view_) * offset, 0.0, 1.0);
   }
@@ -263,30 +271,36 @@ std::optional<CapturedCasterBias> find_bias(const StoredDepths& depths, const ra
   return std::nullopt;
 }
 
-/// What the map would store without the bias, and the slope of the surface that it holds.
+/// What the map would store without the bias, the slope of the surface that it holds, and its angle to the light.
 struct Unmoved {
-  double stored = 0.0, slope = 0.0;
+  double stored = 0.0, slope = 0.0, cosine = 1.0;
+  explicit Unmoved(const Held& held) : Unmoved(held, held.stored) {}
+  Unmoved(const Held& held, double number) : stored(number), slope(held.slope), cosine(held.cosine) {}
 };
 
 class TexelMender {
  public:
   TexelMender(const StoredDepths& depths, const LightView& view, int face, const CapturedCasterBias& bias)
-      : depths_(depths), view_(view), reader_(depths, view, face), bias_(bias) {}
+      : depths_(depths), view_(view), face_(face), reader_(depths, view, face), bias_(bias) {}
 
   /// None where the map holds no surface of the scene so moved.
   std::optional<Unmoved> unmoved(TexelKey key) const {
     const double stored = depths_.stored(key);
     if (const auto first = depths_.first(key))
       if (const auto held = reader_.held(*first, key); held && is_held(*held, key, stored))
-        return Unmoved{stored - offset(*held, key), held->slope};
+        return Unmoved(*held, stored - offset(*held, key));
+    const auto first = depths_.first(key);
+    if (const auto held = first ? outline_moved(*first, key) : std::nullopt) return Unmoved(*held);
     return among_all(key, stored);
   }
   /// Of an empty texel: the first surface, where the bias moves that to the far end, whose number is that of nothing drawn.
   std::optional<Unmoved> pushed_out(TexelKey key) const {
     const auto first = depths_.first(key);
-    const auto held = first ? reader_.held(*first, key) : std::nullopt;
+    if (!first) return std::nullopt;
+    if (const auto held = outline_moved(*first, key)) return Unmoved(*held);
+    const auto held = reader_.held(*first, key);
     if (!held || behind(*held, key, view_.reversed ? 0.0 : 1.0) < -slack(*held, key)) return std::nullopt;
-    return Unmoved{held->stored, held->slope};
+    return Unmoved(*held);
   }
 
  private:
@@ -315,12 +329,34 @@ class TexelMender {
       if (!nearest && off >= -slack(*held, key)) nearest = held;
     }
     if (!holder) return std::nullopt;
-    const bool is_nearest = nearest->depth == holder->depth;
-    return Unmoved{is_nearest ? stored - offset(*holder, key) : nearest->stored, holder->slope};
+    if (nearest->depth == holder->depth) return Unmoved(*holder, stored - offset(*holder, key));
+    return Unmoved(*holder, nearest->stored);
   }
+  /// What lies so near to its outline that the offset against its normals takes it off this ray.
+  std::optional<Held> outline_moved(const SurfaceOnRay& first, TexelKey key) const {
+    const double by = std::abs(bias_.normal_offset_world);
+    if (by == 0.0) return std::nullopt;
+    const auto at = [&](const Vec2& off) {
+      const Ray ray = depths_.ray(key, off);
+      const double t =
+          (first.depth - glm::dot(ray.origin - view_.origin, forward())) / glm::dot(ray.direction, forward());
+      return ray.at(t);
+    };
+    const double texels = by / glm::distance(at(Vec2(0.0)), at(Vec2(1.0, 0.0)));
+    for (const Vec2 way : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1), Vec2(0.7, 0.7), Vec2(-0.7, 0.7),
+                           Vec2(0.7, -0.7), Vec2(-0.7, -0.7)}) {
+      const Vec2 off = (texels + 0.5) * way;
+      const auto beside = depths_.first(key, off);
+      if (!beside || beside->depth > first.depth + by + 2.0 * glm::length(off) * first.across)
+        return reader_.held(first, key);
+    }
+    return std::nullopt;
+  }
+  Vec3 forward() const { return view_.face(face_).forward; }
 
   const StoredDepths& depths_;
   const LightView& view_;
+  int face_;
   FaceReader reader_;
   const CapturedCasterBias& bias_;
 };
@@ -346,6 +382,7 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
   }
   std::vector<float> unbiased = map.depth;
   out.slopes.assign(map.depth.size(), 0.0f);
+  out.cosines.assign(map.depth.size(), 1.0f);
   const auto n = static_cast<std::size_t>(map.view.size);
   parallel_for(unbiased.size() / n, [&](std::size_t line) {
     const int face = static_cast<int>(line / n), row = static_cast<int>(line % n);
@@ -361,6 +398,7 @@ CasterBiases take_out_caster_bias(const FrameInput& in, const std::vector<Captur
       const double stored = unmoved ? unmoved->stored : double{map.depth[i]} - constant;
       unbiased[i] = static_cast<float>(std::clamp(stored, 0.0, 1.0));
       if (unmoved) out.slopes[i] = static_cast<float>(unmoved->slope);
+      if (unmoved) out.cosines[i] = static_cast<float>(unmoved->cosine);
     }
   });
   map.unbiased = std::move(unbiased);
@@ -382,8 +420,14 @@ std::vector<float> with_caster_bias(const raster::ShadowMap& map, const CasterBi
       const auto offset = [&](const CapturedCasterBias& of) {
         return away_from_light(view) * clamped(of.constant + of.slope * double{casters.slopes[i]}, of.clamp);
       };
-      double stored = double{map.depth[i]} - offset(bias);
-      if (const double by = instead.constant_world - bias.constant_world; by != 0.0) {
+      // Outlines move with the normals' offset: where that is another one the map without any bias is the start.
+      const bool anew = instead.normal_offset_world != bias.normal_offset_world;
+      const CapturedCasterBias now = anew ? CapturedCasterBias{} : bias;
+      double stored = double{anew ? map.unbiased[i] : map.depth[i]} - offset(now);
+      const auto world = [&](const CapturedCasterBias& of) {
+        return of.constant_world + against_normal(of, double{casters.cosines[i]});
+      };
+      if (const double by = world(instead) - world(now); by != 0.0) {
         const double along =
             glm::dot(texel_ray(view, face, column + 0.5, row + 0.5).direction, view.face(face).forward);
         stored = stored_from_depth(view, face, row + 0.5,

@@ -18,6 +18,8 @@ struct CasterBiases {
   /// By texel of the map, the larger change of its surface's stored depth from texel to texel; 0 where nothing of the
   /// scene is stored.
   std::vector<float> slopes;
+  /// The same of the cosine of the angle between normal and light.
+  std::vector<float> cosines;
 };
 
 /// Fills `record.map.unbiased` where casters were moved; `given`: by face what the capture says. A texel holds the surface on
@@ -27,7 +29,8 @@ struct CasterBiases {
 CasterBiases take_out_caster_bias(const FrameInput& input, const std::vector<CapturedCasterBias>& given,
                                   raster::LightRecord& record);
 
-/// Returns the map's numbers as they are with this bias in place of what moved the casters of its faces, all else alike.
+/// Returns the map's numbers as they are with this bias in place of what moved the casters of its faces, all else alike. A normal
+/// offset stays or becomes 0: outlines are not moved to a third place.
 std::vector<float> with_caster_bias(const raster::ShadowMap& map, const CasterBiases& casters,
                                     const CapturedCasterBias& instead);
 

@@ -296,8 +296,8 @@ void finish(Judging& in, Comparison& out) {
     for (compare::Advice& advice : judged->advice) {
       if (advice.unit == "stored depth") advice.units = judged->units;
       if (advice.with && advice.with->unit == "stored depth") advice.with->units = judged->units;
-      advice.in_engine =
-          settings_in_engine(judged->engine, advice, in.scene.lights[in.light].type, record, in.world);
+      advice.in_engine = settings_in_engine(judged->engine, advice, in.scene.lights[in.light].type,
+                                            out.raster.options.map.technique, record, in.world);
     }
   }
   if (judged->traces) {

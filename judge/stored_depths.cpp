@@ -77,8 +77,12 @@ SurfaceOnRay StoredDepths::surface(const Ray& ray, const raytrace::Hit& hit, int
                                               stored_from_depth(view_, face, place.y - dv, below))};
   };
   const Change u = change(0.5, 0.0), v = change(0.0, 0.5);
-  return {hit.primitive, glm::dot(ray.at(hit.t) - view_.origin, view_.face(face).forward),
-          0.5 * (u.depth + v.depth), std::max(u.stored, v.stored), front};
+  return {hit.primitive,
+          glm::dot(ray.at(hit.t) - view_.origin, view_.face(face).forward),
+          0.5 * (u.depth + v.depth),
+          std::max(u.stored, v.stored),
+          front,
+          -glm::dot(normal, ray.direction)};
 }
 
 Ray StoredDepths::ray(raytrace::TexelKey key, const Vec2& off) const {

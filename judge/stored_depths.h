@@ -16,6 +16,7 @@ struct SurfaceOnRay {
   double across = 0.0;        ///< what its depth changes by over half a texel along both axes, added up
   double stored_slope = 0.0;  ///< stored numbers from texel to texel, along the axis where it changes more
   bool front = true;          ///< its front faces the light
+  double cosine = 1.0;        ///< of the angle between its normal and the way to the light
 };
 
 /// Texels of a face in even steps, 192 or a few more on each side; all of a small one.

@@ -104,7 +104,7 @@ async function drawFloats(scene, width, height, make) {
   return pixels;
 }
 
-export async function capture(canvas, task) {
+async function prepare(canvas, task) {
   await loadScript("/node_modules/babylonjs/babylon.js");
   await loadScript("/node_modules/babylonjs-loaders/babylonjs.loaders.min.js");
   const settings = settled(
@@ -136,8 +136,18 @@ export async function capture(canvas, task) {
     if (casts) generator.addShadowCaster(mesh, false);
     mesh.receiveShadows = receives;
   }
-
   await scene.whenReadyAsync();
+  return { settings, width, height, engine, scene, light, sun, generator };
+}
+
+/** A page that draws the scene in each animation frame. */
+export async function show(canvas, task) {
+  const { engine, scene } = await prepare(canvas, task);
+  engine.runRenderLoop(() => scene.render());
+}
+
+export async function capture(canvas, task) {
+  const { settings, width, height, engine, scene, light, sun, generator } = await prepare(canvas, task);
   const shadowed = await drawFloats(scene, width, height, white);
   const picture = await new Promise(
     (done) =>

@@ -78,7 +78,7 @@ async function exposed(lights, instance, drawn) {
   throw new Error("no intensity of the light shows its whole range");
 }
 
-export async function capture(canvas, task) {
+async function prepare(canvas, task) {
   await loadScript("/node_modules/filament/filament.js");
   settled(task.settings, {});
   const { width, height } = task;
@@ -107,7 +107,24 @@ export async function capture(canvas, task) {
   renderer.setClearOptions({ clearColor: [0, 0, 0, 0], clear: true });
   const lights = engine.getLightManager(),
     instance = lights.getInstance(light.entity);
-  const tools = { canvas, engine, renderer, swapChain, view };
+  return { width, height, light, lights, instance, tools: { canvas, engine, renderer, swapChain, view } };
+}
+
+/** A page that draws the scene in each animation frame. */
+export async function show(canvas, task) {
+  const { width, height, lights, instance, tools } = await prepare(canvas, task);
+  await exposed(lights, instance, () => draw(tools, width, height));
+  lights.setShadowCaster(instance, true);
+  const next = () => {
+    tools.renderer.render(tools.swapChain, tools.view);
+    tools.engine.execute();
+    requestAnimationFrame(next);
+  };
+  next();
+}
+
+export async function capture(canvas, task) {
+  const { width, height, light, lights, instance, tools } = await prepare(canvas, task);
   lights.setShadowCaster(instance, false);
   const unshadowed = await exposed(lights, instance, () => draw(tools, width, height));
   lights.setShadowCaster(instance, true);

@@ -116,7 +116,7 @@ async function drawFloats(app, camera, width, height) {
   return [0, 1, 2, 3].map((c) => channel(pixels, width, height, c));
 }
 
-export async function capture(canvas, task) {
+async function prepare(canvas, task) {
   const settings = settled(
     task.settings,
     { shadowType: "PCF3_32F", shadowResolution: 1024, shadowBias: 0.05, normalOffsetBias: 0, shadowDistance: 40, numCascades: 1 },
@@ -143,6 +143,17 @@ export async function capture(canvas, task) {
   const { shadowType, ...rest } = settings;
   Object.assign(light, { castShadows: true, shadowType: pc[`SHADOW_${shadowType}`], ...rest });
   if (light.type !== "directional") light.range = reach(root, light);
+  return { settings, width, height, app, root, camera, light };
+}
+
+/** A page that draws the scene in each animation frame. */
+export async function show(canvas, task) {
+  const { app } = await prepare(canvas, task);
+  app.start();
+}
+
+export async function capture(canvas, task) {
+  const { settings, width, height, app, root, camera, light } = await prepare(canvas, task);
   app.autoRender = false;
   app.start();
   await frame(app);

@@ -168,7 +168,7 @@ function readMap(renderer, light, size) {
   });
 }
 
-export async function capture(canvas, task) {
+async function prepare(canvas, task) {
   const settings = settled(task.settings, { type: "pcf", mapSize: 512, bias: 0, normalBias: 0, radius: 1 }, { type: Object.keys(types) });
   const { width, height } = task;
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
@@ -188,7 +188,17 @@ export async function capture(canvas, task) {
   Object.assign(light.shadow, { bias: settings.bias, normalBias: settings.normalBias, radius: settings.radius });
   light.shadow.mapSize.set(settings.mapSize, settings.mapSize);
   if (light.isDirectionalLight) fitSun(scene, light);
+  return { settings, width, height, renderer, scene, camera, light, name };
+}
 
+/** A page that draws the scene in each animation frame. */
+export async function show(canvas, task) {
+  const { renderer, scene, camera } = await prepare(canvas, task);
+  renderer.setAnimationLoop(() => renderer.render(scene, camera));
+}
+
+export async function capture(canvas, task) {
+  const { settings, width, height, renderer, scene, camera, light, name } = await prepare(canvas, task);
   const drawn = (color) =>
     withMaterials(
       scene,

@@ -164,6 +164,7 @@ constexpr TunedEngine engines[] = {
      .name = "Babylon.js",
      .techniques = babylon,
      .front_faces_culled = true,
+     .filtered_constant = 2.0,
      .add_units = add_babylon},
     {.key = "playcanvas",
      .name = "PlayCanvas",

@@ -49,6 +49,7 @@ struct TunedEngine {
   bool front_faces_culled = false;
   bool constant_in_texels = false;  ///< of each cascade's own texel
   bool offsets_casters = false;     ///< its slope is a polygon offset of the casters
+  double filtered_constant = 1.0;   ///< by what its constant is multiplied where comparisons are filtered
   /// Where a normal offset is all that reaches the test.
   std::optional<raster::Technique> normal_offset_alone{};
   /// Adds its settings.

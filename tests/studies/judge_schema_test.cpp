@@ -50,7 +50,8 @@ TEST(CaptureSchema, TakesWhatTheReaderTakes) {
   whole["schema"] = "gnomon/capture/2";
   whole["strength"] = 0.8;
   whole["map"][0]["caster_bias"] = {
-      {"constant", 0.001}, {"constant_world", -0.1}, {"slope", 2}, {"clamp", 0.01}};
+      {"constant", 0.001}, {"constant_world", -0.1},      {"slope", 2},
+      {"clamp", 0.01},     {"normal_offset_world", 0.02}, {"normal_offset_angle", "sine"}};
   whole["map"][0]["rect"] = {0, 4, 8, 8};
   whole["map"][0]["select"] = {{"near", 1}, {"far", 5.5}, {"by", "distance"}};
   whole["map"][0]["bias"] = {{"constant_depth", 0.1}, {"normal_offset_world", 1}};

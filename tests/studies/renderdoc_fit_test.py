@@ -16,6 +16,64 @@ class Held(unittest.TestCase):
         np.testing.assert_allclose(one.light.matrix, light, atol=1e-5)
 
 
+class Normals(unittest.TestCase):
+    CORNERS = np.array([0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5])
+
+    def boxes(self):
+        """(positions, outward normals) of solid boxes, each of whose corners is three vertices."""
+        points, out = [], []
+        for place in PLACES:
+            apart = CUBE[self.CORNERS]
+            n = normals.of_corners(apart, np.arange(36))
+            points.append((fit.homogeneous(apart) @ place.T)[:, :3])
+            out.append(n * np.sign((n * apart).sum(1, keepdims=True)) @ place[:3, :3].T)
+        return np.concatenate(points), np.concatenate(out)
+
+    def test_casters_that_are_moved_along_them_are_a_projection_again(self):
+        views, outward = self.boxes()
+        for light in (parallel(9, 6, 30) @ TO_SUN, perspective(1.2, 1.2, 1, 40, True) @ TO_SUN):
+            place = fit.light_place(light)
+            cosine = normals._cosines(place, views, outward)
+            for angle, factor in normals.ANGLES.items():
+                clips = drawn(light, views - 0.05 * factor(cosine)[:, None] * outward)
+                plain = fit.fit_light(views, clips)
+                self.assertGreater(plain.residuals.max(), 10 * extract.EXACT)
+                found, shift = normals.find(views, outward, clips, plain, False)
+                self.assertEqual(shift.angle, angle)
+                self.assertAlmostEqual(shift.world, 0.05, delta=1e-4)
+                np.testing.assert_allclose(found.matrix, light, atol=2e-4)
+
+    def test_nothing_is_found_where_casters_are_moved_otherwise(self):
+        views, outward = self.boxes()
+        light = parallel(9, 6, 30) @ TO_SUN
+        clips = drawn(light, views + 0.05 * np.sin(7 * views[:, [1, 2, 0]]))
+        self.assertIsNone(normals.find(views, outward, clips, fit.fit_light(views, clips), False))
+
+
+class Vulkan(unittest.TestCase):
+    def test_conventions_follow_the_viewport_and_the_depths_range(self):
+        told = {(90, False): (False, False, True), (-90, False): (False, True, False), (90, True): (True, True, True), (-90, True): (True, True, False)}
+        for (height, minus_one), (from_minus_one, y_up, bottom_first) in told.items():
+            self.assertEqual(conventions.vulkan(height, minus_one), conventions.Conventions(from_minus_one, y_up, bottom_first))
+
+    def test_a_places_depth_is_read_in_each_of_them(self):
+        """A camera's depth buffer, drawn by the numbers of each: the same place is told."""
+        for height, minus_one in ((90, False), (-90, False), (90, True), (-90, True)):
+            clip = conventions.vulkan(height, minus_one)
+            projection = perspective(1.7, 1.7, 0.1, 50, minus_one)
+            if not clip.y_up:
+                projection = np.diag([1.0, -1, 1, 1]) @ projection
+            camera, _ = lens.fit_lens([(CUBE, drawn(projection @ m, CUBE)) for m in PLACES], [], SimpleNamespace(conventions=clip, reversed=False))
+            place = np.array([0.4, 0.9, -6.0, 1.0])
+            x, y, z, w = projection @ place
+            row, column = int((y / w * 0.5 + 0.5) * 900), int((x / w * 0.5 + 0.5) * 900)
+            depth = np.ones((900, 900))
+            depth[row if clip.bottom_row_first else 899 - row, column] = (0.5 * z / w + 0.5) if minus_one else z / w
+            view = SimpleNamespace(lens=camera, state=SimpleNamespace(conventions=clip, reversed=False))
+            positions, is_drawn = pixels.positions_of(depth, view)
+            np.testing.assert_allclose(positions[is_drawn][0], place[:3], atol=0.02)
+
+
 class Lens(unittest.TestCase):
     def test_is_told_by_rigid_meshes(self):
         for minus_one in (True, False):

@@ -18,7 +18,7 @@ except ImportError:
 ADAPTER = os.path.abspath(sys.argv.pop(1))
 sys.path.insert(0, ADAPTER)
 from gnomon_frame import apart, capture, conventions, extract, files, fit, formats, lens, lookup  # noqa: E402
-from gnomon_frame import pairing, passes, pixels, reader, report, spirv, stand_ins, visibility  # noqa: E402
+from gnomon_frame import normals, pairing, passes, pixels, reader, report, spirv, stand_ins, visibility  # noqa: E402
 from gnomon_frame.errors import FrameError  # noqa: E402
 
 ARITHMETIC = 2e-6  # positions are kept as 32-bit floats

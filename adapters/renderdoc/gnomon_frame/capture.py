@@ -107,6 +107,8 @@ def _layer(folder, texture, name, k, layer, test, count, world=np.eye(4)):
     moved = extract.polygon_offset(layer, texture)
     if layer.has_caster_bias:
         moved["constant_world"] = layer.shift.world
+    if layer.normal_shift:
+        moved |= {"normal_offset_world": layer.normal_shift.world, "normal_offset_angle": layer.normal_shift.angle}
     if moved:
         out["caster_bias"] = moved
     if reach:

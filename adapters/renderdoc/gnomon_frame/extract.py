@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from . import fit, literals
+from . import fit, literals, normals
 from .casters import Roles
 from .errors import FrameError
 from .lens import Lens, covers_the_picture, fit_lens, is_parallel
@@ -15,6 +15,7 @@ from .reader import CasterShift, ReaderMatrix, caster_shift, find_reader, textur
 
 PUSHED = 1e-5  # casters whose places are off by more may have been moved along their normals
 PROJECTED = 1e-3  # a light's matrix that is off by more is no projection
+EXACT = 2e-5  # by more than 32-bit arithmetic is off
 
 
 @dataclass
@@ -31,6 +32,7 @@ class Layer:
     pairs: list = field(default_factory=list)  # (place among the camera's meshes, caster); None of casters that it does not draw
     reader: ReaderMatrix | None = None
     shift: CasterShift | None = None
+    normal_shift: normals.NormalShift | None = None
     texels: np.ndarray | None = None  # of its own rectangle, as the casters left them
     read: np.ndarray | None = None  # the same as the readers found them: blurred, by some
     covered: np.ndarray | None = None  # which of them some caster covers
@@ -185,7 +187,9 @@ def _fit_layer(layer, view, cameras):
     layer.light = fit.fit_light(views, clips)
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
         _without_what_is_held(layer, views, clips)
-    if layer.light.rank == 4 and layer.light.residuals.max() > PUSHED and (turned := _turned_normals(layer, view)) is not None:
+    if layer.light.rank == 4 and layer.light.residuals.max() > EXACT:
+        _along_normals(layer, view, views, clips)
+    if layer.light.rank == 4 and layer.light.residuals.max() > PUSHED and layer.normal_shift is None and (turned := _turned_normals(layer, view)) is not None:
         layer.pushed = fit.fit_pushed(views, turned, clips)
         layer.light = layer.pushed.light if layer.pushed else layer.light
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
@@ -205,6 +209,14 @@ def _turned_normals(layer, view):
         normals = fit.turned_normals(caster.objects, caster.normals, view.positions[place])
         out.append(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30))
     return np.concatenate(out)
+
+
+def _along_normals(layer, view, views, clips):
+    """Casters may be moved along their normals: what is left of the projection tells."""
+    pairs = [(view.positions[place], caster.corners) for place, caster in layer.pairs if place is not None]
+    found = normals.find(views, np.concatenate([normals.of_corners(*one) for one in pairs]), clips, layer.light, layer.state.reversed)
+    if found and found[0].residuals.max() <= PROJECTED:
+        layer.light, layer.normal_shift = found
 
 
 def _without_what_is_held(layer, views, clips):

@@ -156,12 +156,19 @@ class Search:
             ranked = sorted({free, *self.factors} - {0.0}, key=lambda c: np.mean((v + c * factor >= 0) != lit))
             for c in ranked[:12]:
                 one = replace(form, constant=c, angle=name)
-                self._note(one, values, inside)
+                unlimited = self._note(one, values, inside)
                 lows = [k for k in numbers if k < c * factor.max()]
                 for low in lows:
-                    self._note(replace(one, low=low), values, inside)
+                    self._limited(replace(one, low=low), low, unlimited, values, inside)
                 for high in [k for k in numbers if k > 0.2 * c]:
-                    self._note(replace(one, high=high), values, inside)
+                    self._limited(replace(one, high=high), high, unlimited, values, inside)
+
+    def _limited(self, form, limit, unlimited, values, inside):
+        """A form with a limit; where that alone decides the picture as well, and the angle does not, it is a constant."""
+        found = self._note(form, values, inside)
+        alone = self._note(Form(constant=limit, linear=form.linear), values, inside)
+        if alone.wrong <= found.wrong < unlimited.wrong:
+            self.tried.remove(found)
 
     def _offsets(self, form):
         texel = np.sqrt(np.nanmedian(self.looked_up.texel_areas(self.places)))
@@ -190,6 +197,8 @@ class Search:
         enough = NEARLY + 2 / max(int(inside.sum()), 1)
         if self._rank(constant)[:2] != (False, 0) or constant.wrong > enough:
             form = replace(constant, constant=0.0)
+            for c in self.given:
+                self._note(replace(form, constant=c), values, inside)
             self._angles(form, values, inside)
             self._offsets(form)
         least = min(one.wrong for one in self.tried)

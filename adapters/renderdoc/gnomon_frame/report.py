@@ -20,6 +20,10 @@ def light_line(number, frame, found, layers):
             f"from {x:.0f}, {y:.0f}), {casters} draws of casters, read by {len(found.passes.readers)} draws from event {found.passes.readers[0].event} on")
 
 
+def _times(angle):
+    return "" if angle == "none" else f" times the {angle.replace('_', ' ')} of the angle to the light"
+
+
 def _form(form):
     """What is said of the reader's bias and of how it reads."""
     out = []
@@ -31,8 +35,7 @@ def _form(form):
     elif form.constant:
         out.append(f"the reader's test lets {form.constant:.3g} of stored depth pass")
     if form.offset:
-        times = "" if form.offset_angle == "none" else f" times the {form.offset_angle.replace('_', ' ')} of the angle to the light"
-        out.append(f"places are moved {form.offset:.3g} world units{times} along their normals")
+        out.append(f"places are moved {form.offset:.3g} world units{_times(form.offset_angle)} along their normals")
     if form.linear:
         out.append("the sampler interpolates depths before they are compared")
     how = "found from the picture" if form.known else ("found from the picture alone: no constant of the frame is that number, so that the bias may "
@@ -61,6 +64,9 @@ def findings(frame, found, layers, test):
         if layer.has_caster_bias:
             out.append(f"{which}casters are drawn {layer.shift.world:.4f} world units away from the light ({how}; residual "
                        f"{layer.shift.residual:.1e})")
+        if layer.normal_shift:
+            out.append(f"{which}casters are moved {layer.normal_shift.world:.4g} world units{_times(layer.normal_shift.angle)} against their normals (their "
+                       f"positions are a projection then, residual {float(np.max(layer.light.residuals)):.1e})")
         if test.form:
             out += _form(test.form) if k == 0 else []
         elif layer.constant and not test.fitted:

@@ -1,0 +1,59 @@
+"""Casters that a shader moves along their normals while the map is drawn (Babylon.js, Unity): a number that the angle to the light may
+scale."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import fit
+
+ANGLES = {"none": np.ones_like, "sine": lambda c: np.sqrt(np.maximum(1 - c * c, 0)), "one_minus_cosine": lambda c: 1 - c}
+STEPS = 6  # in which light, offset and matrix settle
+ENOUGH = 0.1  # of what is left without an offset: a form that leaves more is none
+
+
+@dataclass(frozen=True)
+class NormalShift:
+    """By how much the casters were moved against their normals."""
+
+    world: float  # world units, before the angle's factor
+    angle: str  # a capture's word for it
+
+
+def of_corners(points, corners):
+    """Normals of vertices: the mean of their triangles', by area."""
+    triangles = corners.reshape(-1, 3)
+    face = np.cross(points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]])
+    out = np.zeros_like(points)
+    for k in range(3):
+        np.add.at(out, triangles[:, k], face)
+    return out / np.maximum(np.linalg.norm(out, axis=1), 1e-30)[:, None]
+
+
+def _cosines(place, points, normals):
+    to_light = -place.direction if place.apex is None else place.apex - points
+    to_light = to_light / np.linalg.norm(to_light, axis=-1, keepdims=True)
+    return np.clip((normals * to_light).sum(-1), -1, 1)
+
+
+def _settled(views, normals, clips, light, factor, reversed_depth):
+    """(LightFit, offset against the normals) of one factor: clip = M (p - k f n), of which M and k M are linear."""
+    offset, moved = 0.0, views
+    for _ in range(STEPS):
+        f = factor(_cosines(fit.light_place(light.matrix, reversed_depth), views, normals))
+        along = normals * f[:, None]
+        both = np.linalg.lstsq(np.c_[fit.homogeneous(moved), along], clips, rcond=None)[0].T
+        turn = both[:, :3]
+        offset -= float((both[:, 4:] * turn).sum() / max((turn * turn).sum(), 1e-300))
+        moved = views - offset * along
+        light = fit.fit_light(moved, clips)
+    return light, offset
+
+
+def find(views, normals, clips, light, reversed_depth):
+    """(LightFit, NormalShift) of casters that are no projection by themselves, or None. `light`: as they are fitted without."""
+    best = None
+    for angle, factor in ANGLES.items():
+        found, offset = _settled(views, normals, clips, light, factor, reversed_depth)
+        if found.rank == 4 and (best is None or found.residuals.max() < 0.5 * best[0].residuals.max()):
+            best = found, NormalShift(offset, angle)
+    return best if best and best[0].residuals.max() <= ENOUGH * light.residuals.max() else None
