@@ -19,9 +19,9 @@ const rows = [
   ["three", "advised", "--type pcf --mapSize 2048 --bias -0.0001 --normalBias 0.02"],
   ["three", "basic", "--type basic --mapSize 1024 --bias -0.002"],
   ["babylon", "default", ""],
-  ["babylon", "advised", "--type pcf --mapSize 2048 --bias 0.001 --normalBias 0.02"],
-  ["playcanvas", "default", ""],
-  ["playcanvas", "advised", "--shadowType PCF5_32F --shadowResolution 2048 --shadowBias 0.2 --normalOffsetBias 0.05"],
+  ["babylon-page", "advised", "--type pcf --mapSize 2048 --bias 0.001 --normalBias 0.02"],
+  ["playcanvas-page", "default", ""],
+  ["playcanvas-page", "advised", "--shadowType PCF5_32F --shadowResolution 2048 --shadowBias 0.2 --normalOffsetBias 0.05"],
   ["filament", "default", ""],
   ["eevee", "default", ""],
   ["eevee", "advised", "--cascadeSize 4096 --highBitDepth true"],
@@ -132,8 +132,8 @@ function main() {
   console.log(`# Engines, judged
 
 For whoever asks what engines draw: four of Gnomon's scenes, each with a sun, drawn at ${size} and judged by \`gnomon judge\`.
-The engines are those of the web in headless Chromium, Blender's EEVEE and Cycles, and Godot and Qt Quick 3D, of which
-RenderDoc recorded a frame. \`docs/make_engines.sh\` wrote this page with the [adapters](../adapters/README.md); versions and
+The engines are those of the web in headless Chromium, Blender's EEVEE and Cycles, and Godot and Qt Quick 3D. Of these two,
+of PlayCanvas and of Babylon.js where it filters, RenderDoc recorded a frame. \`docs/make_engines.sh\` wrote this page with the [adapters](../adapters/README.md); versions and
 options stand in each row.
 
 One picture of one light is compared in each scene, at settings that nobody has tuned for it. *Default* is what the engine
@@ -145,7 +145,7 @@ examples show. Much depends on what the engine fits its map to; no number here s
 ${scenes.map((scene, s) => rows.map((entry, r) => row(scene, results[s][r], entry)).join("\n")).join("\n")}
 
 *unexplained*: the adapter hands over no depth map of this technique, so that Gnomon can say where the shadow is wrong and
-not why. A bias that an engine gives to the casters lies in its map; what is advised then comes on top of it.
+not why. Filament warps its map (its matrix is no symmetric perspective), and EEVEE's cannot be read. A bias that an engine gives to the casters lies in its map; what is advised then comes on top of it.
 
 ## To repeat a row
 

@@ -37,7 +37,7 @@ const software = {
 
 export const isRecorded = (engine) => engine in programs || engine in pages;
 
-/** Runs a program to its end; a server of this process answers meanwhile. */
+/** Runs a program to its end, and returns what it said; a server of this process answers meanwhile. */
 async function run([program, ...words]) {
   const child = spawn(program, words, { env: { ...process.env, ...software }, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
@@ -46,7 +46,7 @@ async function run([program, ...words]) {
     child.on("error", (error) => failed(new Error(`${program} cannot be run: ${error.message}`)));
     child.on("close", done);
   });
-  if (status === 0) return;
+  if (status === 0) return said;
   const lines = said.trim().split("\n");
   throw new Error(lines.findLast((line) => /^(error|record): /.test(line)) || `${words.join(" ")} ended with ${status}`);
 }
@@ -67,8 +67,9 @@ export async function captureRecorded(job) {
   const folder = mkdtempSync(join(tmpdir(), "gnomon-frame-")),
     frame = join(folder, "frame.rdc");
   try {
-    await record(job, frame);
-    await run([...onDisplay, "-B", join(here, "renderdoc"), frame, "-o", job.folder, "--name", names[job.engine] ?? pages[job.engine]]);
+    const said = await record(job, frame);
+    const name = names[job.engine] ?? /^engine: (.*)$/m.exec(said)?.[1].replace(" v", " ") ?? pages[job.engine];
+    await run([...onDisplay, "-B", join(here, "renderdoc"), frame, "-o", job.folder, "--name", name]);
   } finally {
     rmSync(folder, { recursive: true });
   }

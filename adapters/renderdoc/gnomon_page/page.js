@@ -1,5 +1,5 @@
-// What a page runs before its own scripts. It counts what the page draws, switches multisampling and WebGPU off, and stops the page, once
-// it is armed, before the next draw into a framebuffer with depth: a frame's shadow map comes first.
+// What a page runs before its own scripts. It counts what the page draws, and switches multisampling and WebGPU off. Once it is armed it
+// stops the page before the next draw into a framebuffer with depth: a frame's shadow map comes first.
 (() => {
   const seen = { contexts: 0, draws: 0, depths: 0, antialias: false, samples: false, webgpu: false };
   let isArmed = false;
