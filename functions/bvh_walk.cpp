@@ -1,5 +1,5 @@
-// A ray's walk through a tree of boxes, with a stack. A case's numbers are how many nodes there are, how often boxes and leaves may be
-// asked, and four for each node; shaders/function/call.frag counts who asks.
+// A ray's walk through a tree of boxes, with a stack. A case's numbers are how many nodes there are, which boxes may be asked (a bit for
+// each node), how often leaves may be, and four for each node; shaders/function/call.frag counts who asks.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -35,6 +35,7 @@ struct Manner {
 struct Walked {
   double nearest = -1.0;
   int leaves = 0;  ///< asked
+  int boxes = 0;   ///< asked, a bit for each node
 };
 
 void walk(const Nodes& nodes, const Node& node, Manner manner, Walked& so_far) {
@@ -46,6 +47,7 @@ void walk(const Nodes& nodes, const Node& node, Manner manner, Walked& so_far) {
       so_far.nearest = node.thing;
     return;
   }
+  so_far.boxes |= 1 << static_cast<int>(node.left) | 1 << static_cast<int>(node.right);
   const Node *near = &nodes[static_cast<std::size_t>(node.left)],
              *far = &nodes[static_cast<std::size_t>(node.right)];
   const bool exchange = near->entry > far->entry || (manner.right_first && near->entry == far->entry);
@@ -56,6 +58,7 @@ void walk(const Nodes& nodes, const Node& node, Manner manner, Walked& so_far) {
 
 Walked walk(const Nodes& nodes, Manner manner = {}) {
   Walked out;
+  out.boxes = 1;
   if (nodes[0].entry >= 0.0) walk(nodes, nodes[0], manner, out);
   return out;
 }
@@ -80,8 +83,11 @@ std::string walk_words(Numbers n) {
 }
 
 std::string walk_value_words(Numbers, const Value& value) {
-  return fmt::format("{} (leaves asked: up to {}, boxes: up to {})",
-                     value[0] == -1.0 ? "no hit" : fmt::format("t = {:.6g}", value[0]), value[2], value[1]);
+  std::string boxes;
+  for (std::size_t i = 0; i < most_nodes; ++i)
+    if ((static_cast<int>(std::clamp(value[1], 0.0, 4095.0)) >> i & 1) != 0) boxes += fmt::format(" {}", i);
+  return fmt::format("{} (leaves asked: up to {}; boxes asked or allowed:{})",
+                     value[0] == -1.0 ? "no hit" : fmt::format("t = {:.6g}", value[0]), value[2], boxes);
 }
 
 struct Ball {
@@ -123,13 +129,16 @@ std::vector<Ball> some_balls(Dice& dice, int count) {
   return balls;
 }
 
-/// Adds the tree as the shader gets it. Each box may be asked twice, for some ask again when it comes from the stack; leaves as often
-/// as a walk needs. False where boxes that begin at one t leave open what a walk needs.
+/// Adds the tree as the shader gets it. The boxes that a walk comes to may be asked again and again, and those of the root's children in
+/// any case; leaves as often as a walk needs. False where boxes that begin at one t leave open what a walk needs.
 bool add_tree(Questions& q, const Nodes& nodes, bool any = false) {
   Question question = q.made(static_cast<double>(nodes.size()));
   const Walked left_first = walk(nodes), right_first = walk(nodes, {.right_first = true});
-  if (!any && left_first.leaves != right_first.leaves) return false;
-  q.append(question, 2.0 * static_cast<double>(nodes.size()) + 1.0,
+  if (!any && (left_first.leaves != right_first.leaves || left_first.boxes != right_first.boxes))
+    return false;
+  const int children =
+      nodes[0].left < 0.0 ? 0 : 1 << static_cast<int>(nodes[0].left) | 1 << static_cast<int>(nodes[0].right);
+  q.append(question, left_first.boxes | right_first.boxes | children,
            std::max(left_first.leaves, right_first.leaves));
   for (const Node& node : nodes) q.append(question, node.entry, node.left, node.right, node.thing);
   question.numbers.resize(walk_numbers);
@@ -189,8 +198,9 @@ std::vector<Question> walk_questions() {
 
 Function bvh_walk_function() {
   return {"bvh_walk",
-          "float t = bvh_walk(); answer = vec4(t, max(float(boxes_asked), case_number(1)), "
-          "max(float(leaves_asked), case_number(2)), 0.0)",
+          "float t = bvh_walk(); int leaves = int(case_number(2)); "
+          "answer = vec4(t, boxes_asked | int(case_number(1)), leaves_asked > leaves ? leaves_asked : "
+          "leaves, 0.0)",
           walk_numbers,
           AnswerKind::several,
           walk_questions,

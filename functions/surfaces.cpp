@@ -60,6 +60,7 @@ std::vector<Question> sphere_questions() {
       [&] {
         past(1.5, 50.0, 1.0, 0.01);
         past(0.4, -0.5, 1.0, 0.01);  // begins inside: 0.004 is a place before it
+        past(0.4, 1.6, 1.0, 0.01);   // begins close before it, and meets it at 0.007
       });
   pairs(
       "far", [&] { past(0.45, 40.0, 1.0, 10.0); }, [&] { past(1.5, 40.0, 1.0, 10.0); });
@@ -97,7 +98,9 @@ std::vector<Question> plane_questions() {
   group("normal", 1.0, 1.0, 3.0);
   q.group("parallel", of_each, [&](int) {
     const double y = std::round(dice.between(-3.0, 3.0));
-    add({{-1.0, y + 1.0, 2.0}, {0.6, 0.0, -0.8}}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
+    // Above, below and in the plane: without a test of the slant t is -infinity, infinity and no number.
+    for (const double height : {1.0, -1.0, 0.0})
+      add({{-1.0, y + height, 2.0}, {0.6, 0.0, -0.8}}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
     // As flat as a third of a degree: a hit, and no parallel ray.
     add({{-1.0, y + 1.0, 2.0}, glm::normalize(Vec3(0.6, -0.006, -0.8))}, {1.0, y, 0.0}, {0.0, 1.0, 0.0});
   });
@@ -207,6 +210,12 @@ std::vector<Question> triangle_questions() {
       if (name == "behind") ray.direction *= -1.0;
       if (name == "back") ray = ray_at(dice, t, -0.3, 0.3, 3.0, -1.0);
       add_triangle(q, ray, t);
+      if (name == "back") continue;
+      // Beside the triangle and behind the ray: two signs that are wrong must not make it right.
+      const double u = i % 2 == 0 ? 0.3 : -0.3;
+      Ray beside = ray_at(dice, t, u, -0.3, 3.0);
+      beside.direction *= -1.0;
+      add_triangle(q, beside, t);
     }
   }
   add_parallel(q, dice);
@@ -270,6 +279,8 @@ void add_axes(Questions& q, Dice& dice, std::string_view name, double where) {
       add_box(q, {origin, direction}, box);
       origin[other] = box.max[other] + dice.between(0.2, 1.0);
       add_box(q, {origin, direction}, box);
+      origin[other] = box.min[other] - dice.between(0.2, 1.0);
+      add_box(q, {origin, direction}, box);
       if (where == 1.0) continue;
       // As flat as a third of a degree: it begins beside the slab, and is in it before it comes to the box.
       origin[other] = box.max[other] + 0.012, direction[other] = -0.006;
@@ -289,6 +300,14 @@ std::vector<Question> box_questions() {
     });
   };
   pairs("front", 1.0, 3.0);
+  // Through a corner and past it: the way inside is short, and which slab is left first matters.
+  for (int i = 0; i < of_each; ++i) {
+    const Aabb box = some_box(dice, 1.0);
+    for (const double inset : {0.03, -0.03}) {
+      const Vec3 edge(box.max.x - inset, box.max.y - inset, box.center().z);
+      add_box(q, ray_to(edge, glm::normalize(Vec3(1.0, -1.0, 0.1 * (i - 2.5))), 3.0), box);
+    }
+  }
   pairs("length", 1.0, 3.0, 2.5);
   q.group("inside", of_each, [&](int) {
     const Aabb box = some_box(dice, 1.0);

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "grade/expand_macros.h"
 #include "raster/programs/shader_folder.h"
 
 namespace gnomon::grade {
@@ -61,7 +62,7 @@ std::vector<std::string_view> words_of(std::string_view text) {
 using Passages = std::set<std::size_t>;  // hashes
 
 Passages passages_of(std::string_view text, const std::vector<std::string>& known) {
-  const std::vector<std::string> words = plain_words(text, known);
+  const std::vector<std::string> words = plain_words(with_macros_put_in(std::string(text)), known);
   Passages out;
   for (std::size_t i = 0; i + passage <= words.size(); ++i) {
     std::string joined;
@@ -130,9 +131,33 @@ std::vector<AlikePair> find_alike(const std::vector<Answer>& answers, const std:
   return pairs;
 }
 
-std::vector<AlikePair> find_alike(const std::vector<Student>& students, const Rubric& rubric) {
-  std::vector<Answer> answers;
-  for (const Student& student : students) answers.push_back(answer_of(student, rubric).value_or(""));
+std::vector<AlikeGroup> groups_of(const std::vector<AlikePair>& pairs) {
+  std::vector<AlikeGroup> groups;
+  std::map<std::size_t, std::size_t> group_of;
+  const auto join = [&](std::size_t a, std::size_t b) {
+    for (const std::size_t student : groups[b].students)
+      group_of[student] = a, groups[a].students.push_back(student);
+    groups[a].share = std::min(groups[a].share, groups[b].share);
+    groups[a].same_text = groups[a].same_text && groups[b].same_text;
+    groups[b].students.clear();
+  };
+  for (const AlikePair& pair : pairs) {
+    for (const std::size_t student : {pair.first, pair.second})
+      if (group_of.emplace(student, groups.size()).second) groups.push_back({{student}, 1.0, true});
+    const std::size_t a = group_of[pair.first], b = group_of[pair.second];
+    if (a != b) join(a, b);
+    groups[a].share = std::min(groups[a].share, pair.share);
+    groups[a].same_text = groups[a].same_text && pair.same_text;
+  }
+  std::erase_if(groups, [](const AlikeGroup& group) { return group.students.empty(); });
+  for (AlikeGroup& group : groups) std::ranges::sort(group.students);
+  std::ranges::stable_sort(groups, [](const AlikeGroup& a, const AlikeGroup& b) {
+    return a.students.size() != b.students.size() ? a.students.size() > b.students.size() : a.share > b.share;
+  });
+  return groups;
+}
+
+std::vector<AlikePair> alike_in(const std::vector<Answer>& answers, const Rubric& rubric) {
   std::vector<std::string> given = rubric.begun;
   for (const GivenFile& file : rubric.given) given.push_back(file.text);
   for (const raster::ShaderFile& file : raster::own_shaders()) given.emplace_back(file.text);

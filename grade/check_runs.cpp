@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "grade/grade.h"
 #include "grade/mistakes.h"
 #include "raster/use_shaders.h"
 #include "scene/base/expected.h"
@@ -115,7 +116,17 @@ std::vector<std::string> CheckRuns::words_of(const Run& run, const std::string& 
   return words;
 }
 
+std::string CheckRuns::as_found(std::string failure) const {
+  for (const HandedFile& file : shown_files_)
+    if (const std::string path = fmt::format("{}/{}", shaders_, file.name); failure.starts_with(path + ":"))
+      return failure.replace(0, path.size(), one_line(file.place));
+  return failure;
+}
+
 Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Manner manner) {
+  for (const HandedFile& file : shown_files_)
+    if (!file.refused.empty() && file.name == fmt::format("function/{}.glsl", run.function))
+      return Drawing{{}, file.refused, {}};
   std::vector<std::string> words = words_of(run, folder);
   if (!shaders_.empty()) words.insert(words.end(), {"--shader-dir", shaders_});
   if (manner.timed) words.emplace_back("--timed-as-judged");
@@ -126,20 +137,22 @@ Expected<Drawing> CheckRuns::make(const Run& run, const std::string& folder, Man
                            ? process_->run(words)
                            : run_limited(program_beside("gnomon"), words, rubric_->limits);
   if (!outcome) return fail(outcome.error());
-  std::string failure = failure_words(*outcome, rubric_->limits);
-  if (!shown_shaders_.empty() && failure.starts_with(shaders_))
-    failure.replace(0, shaders_.size(), shown_shaders_);
+  const std::string failure = failure_words(*outcome, rubric_->limits);
   if (outcome->end == Outcome::End::exited && outcome->code == 0) {
     auto result = run.function.empty() ? read_run_result(folder) : read_called(run, folder);
     if (!result) return fail(result.error());
-    return Drawing{std::move(*result), {}};
+    return Drawing{std::move(*result), {}, {}};
   }
   if (outcome->end == Outcome::End::exited && outcome->code == static_cast<int>(ErrorKind::cannot_write))
     return fail(ErrorKind::cannot_write, failure);  // a full disk is no shader's fault
   const bool disturbed = may_be_disturbed(*outcome);
   if (disturbed && manner.again && !is_shaders_fault(*outcome))
     return fail(ErrorKind::graphics, fmt::format("drawing failed twice: {}", failure));
-  return Drawing{{}, failure, outcome->end == Outcome::End::out_of_time, disturbed && !manner.again};
+  return Drawing{{},
+                 as_found(failure),
+                 excerpt_at(failure, shaders_),
+                 outcome->end == Outcome::End::out_of_time,
+                 disturbed && !manner.again};
 }
 
 Expected<Drawing> CheckRuns::make_undisturbed(const Run& run, const std::string& folder, Manner manner) {

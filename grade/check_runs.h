@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grade/figures.h"
+#include "grade/handed_in.h"
 #include "grade/limited_process.h"
 #include "grade/rubric.h"
 
@@ -15,6 +16,7 @@ namespace gnomon::grade {
 struct Drawing {
   std::optional<RunResult> result;
   std::string failure;  ///< one line
+  std::string excerpt;  ///< lines of the student's file around an error; may be empty
   bool out_of_time = false;
   /// Something else than the shader may have ended it: it is worth another try with nothing else drawn.
   bool disturbed = false;
@@ -24,8 +26,8 @@ class CheckRuns {
  public:
   /// `shaders`: the student's folder, or what was made of it; empty for the program's own. Drawings lie below `folder`.
   CheckRuns(const Rubric& rubric, std::string shaders, std::string folder);
-  /// What the messages of shaders' mistakes call the folder.
-  void call_shaders(std::string name) { shown_shaders_ = std::move(name); }
+  /// Messages of shaders' mistakes name these files by the places where they were found.
+  void call_shaders(std::vector<HandedFile> files) { shown_files_ = std::move(files); }
 
   /// From here on each drawing is a process of its own, so that any thread may ask for one.
   void end_process() { process_.reset(); }
@@ -49,6 +51,8 @@ class CheckRuns {
   /// The command line without what says where things lie.
   std::vector<std::string> words_of(const Run& run, const std::string& folder) const;
   bool needs_values(const Run& run) const;
+  /// A message with the file's place as the student knows it.
+  std::string as_found(std::string failure) const;
   /// Whether a check asks on which side of the truth the drawing errs.
   bool needs_sides(const Run& run) const;
   /// How a drawing is made, besides what the run says.
@@ -69,8 +73,8 @@ class CheckRuns {
   const Rubric* rubric_;
   std::optional<CommandProcess> process_;
   std::string shaders_, folder_;
-  std::string shown_shaders_;  ///< empty: as they are
-  std::deque<Made> made_;      ///< what was handed out stays where it is
+  std::vector<HandedFile> shown_files_;
+  std::deque<Made> made_;  ///< what was handed out stays where it is
 };
 
 }  // namespace gnomon::grade

@@ -145,7 +145,10 @@ DrawnValues values_of_answers(const Run& run, const std::vector<raster::Answer>&
       for (std::size_t k = 0; k < functions::size_of(function.kind); ++k) {
         const functions::Right& right = questions[i].right;
         const float answer = right.value[k] < no_place ? std::min(answers[i][k], no_place) : answers[i][k];
-        values.visibility.push_back(in_steps(answer, right.tolerance));
+        // What should have no end may have any: such are told apart by their orders of magnitude.
+        values.visibility.push_back(right.value[k] < no_place
+                                        ? in_steps(answer, right.tolerance)
+                                        : in_steps(std::log(std::max(answer, 1e-6f)), 1e-3));
       }
   values.is_uniform = std::ranges::all_of(answers, [&](const raster::Answer& answer) {
     return std::memcmp(&answer, &answers.front(), sizeof(float) * functions::size_of(function.kind)) == 0;
@@ -292,6 +295,8 @@ Agreement compare_drawings(const DrawnValues& drawn, const DrawnValues& other, c
     ++sum.compared;
     sum.wrong += is_wrong ? 1 : 0, sum.either += is_wrong || !is_alike(second, true_one) ? 1 : 0;
     sum.unlike += is_alike(own, second) ? 0 : 1;
+    sum.explained += is_wrong && is_alike(own, second) ? 1 : 0;
+    sum.other_wrong += is_alike(second, true_one) ? 0 : 1;
   }
   return sum;
 }

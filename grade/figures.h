@@ -54,9 +54,11 @@ Expected<std::uint64_t> count_different(const RunResult& a, const RunResult& b);
 /// What one drawing has in common with another beside the right one, in compared pixels over all lights.
 struct Agreement {
   std::uint64_t compared = 0;
-  std::uint64_t wrong = 0;   ///< that the first draws otherwise than the right one
-  std::uint64_t either = 0;  ///< that the first or the second does
-  std::uint64_t unlike = 0;  ///< that the two draw otherwise
+  std::uint64_t wrong = 0;        ///< that the first draws otherwise than the right one
+  std::uint64_t either = 0;       ///< that the first or the second does
+  std::uint64_t unlike = 0;       ///< that the two draw otherwise
+  std::uint64_t explained = 0;    ///< that the first draws wrong, and the second alike
+  std::uint64_t other_wrong = 0;  ///< that the second draws otherwise than the right one
   /// The two draw all but a twentieth of what either draws wrong alike.
   bool is_like() const { return 20 * unlike <= either; }
   double alike() const { return 1.0 - static_cast<double>(unlike) / static_cast<double>(compared); }

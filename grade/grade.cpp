@@ -65,6 +65,23 @@ std::vector<Run> beside(const Rubric& rubric, const Run& known) {
   return runs;
 }
 
+/// The function's other checks, one run of each kind of cases.
+std::vector<Run> other_checks(const Rubric& rubric, const Run& known) {
+  std::vector<Run> runs;
+  for (const Run& run : all_runs(rubric))
+    if (!known.function.empty() && run.function == known.function && run.cases != known.cases)
+      runs.push_back(run);
+  return runs;
+}
+
+/// How far a mistake explains what a function's other checks show.
+struct Explanation {
+  std::uint64_t wrong = 0, explained = 0;     ///< numbers of answers
+  std::uint64_t would_be = 0, confirmed = 0;  ///< that the mistake makes wrong, and that are wrong like this
+  /// It explains most of what is wrong, and most of what it would make wrong is so.
+  bool holds() const { return 2 * explained >= wrong && 3 * confirmed >= 2 * would_be; }
+};
+
 /// Tenths of points, fewer than all of them.
 double part_of(double points, double share) {
   return std::min(std::floor(10.0 * points * share) / 10.0, points - 0.1);
@@ -82,9 +99,7 @@ std::string explained(const Run& run, const std::string& mistake, const Agreemen
 /// One student, or the program's own shader.
 class Grader {
  public:
-  /// `shaders`: where the student's shaders lie; empty for the program's own.
-  Grader(Class& of, const std::string& shaders, CheckRuns& runs)
-      : class_(of), shaders_(shaders), runs_(runs) {}
+  Grader(Class& of, CheckRuns& runs) : class_(of), runs_(runs) {}
 
   Expected<CheckResult> grade(const Check& check) {
     CheckResult result;
@@ -113,7 +128,7 @@ class Grader {
     if (!drawing) return fail(drawing.error());
     if (!(*drawing)->result) {
       if ((*drawing)->out_of_time) hanging_.push_back(run.function);
-      result.excerpt = excerpt_at((*drawing)->failure, shaders_);
+      result.excerpt = (*drawing)->excerpt;
       return Judgement{false, (*drawing)->failure};
     }
     const RunResult& drawn = *(*drawing)->result;
@@ -146,6 +161,11 @@ class Grader {
     }
     auto found = class_.mistakes.explaining(run, *values, **right);
     if (!found) return fail(found.error());
+    for (std::size_t i = found->size(); i-- > 0;) {
+      const auto holds = holds_elsewhere((*found)[i], run);
+      if (!holds) return fail(holds.error());
+      if (!*holds) found->erase(found->begin() + static_cast<std::ptrdiff_t>(i));
+    }
     if (found->empty()) return judgement;
     const auto one = most_likely(run, std::move(*found));
     if (!one) return fail(one.error());
@@ -153,9 +173,34 @@ class Grader {
     if (!agreement) return fail(agreement.error());
     rest_is_hidden_ = class_.mistakes.hides_rest(*one);
     if (!rest_is_hidden_) named_.push_back(*one), result.mistake_named = true;
+    result.mistake = class_.mistakes.words(*one);
     judgement.reason = explained(run, class_.mistakes.words(*one), *agreement, judgement.reason);
     judgement.share = 0.0;  // later checks forgive it, however little shows of it here
     return judgement;
+  }
+
+  /// A few cases may look like a mistake that is not there: it has to explain what the function's other checks show, too.
+  Expected<bool> holds_elsewhere(std::size_t mistake, const Run& known) {
+    Explanation sum;
+    for (const Run& run : other_checks(class_.rubric, known)) {
+      const auto drawing = draw_undisturbed(runs_, run, class_.quiet);
+      if (!drawing) return fail(drawing.error());
+      if (!(*drawing)->result) continue;
+      const auto right = own_values(run);
+      if (!right) return fail(right.error());
+      const auto values = read_values(run, *(*drawing)->result);
+      if (!values) return fail(values.error());
+      const auto agreement = class_.mistakes.agreement(mistake, run, *values, **right);
+      if (!agreement) return fail(agreement.error());
+      sum.wrong += agreement->wrong, sum.explained += agreement->explained;
+      sum.would_be += agreement->other_wrong, sum.confirmed += agreement->explained;
+      if (2 * agreement->explained >= agreement->wrong) continue;
+      // Another mistake that is known may be there as well.
+      const auto others = class_.mistakes.explaining(run, *values, **right);
+      if (!others) return fail(others.error());
+      if (!others->empty()) sum.explained += agreement->wrong - agreement->explained;
+    }
+    return sum.holds();
   }
 
   /// Several mistakes may draw a run as the student did. Returns the one that draws the other runs so, too.
@@ -194,7 +239,6 @@ class Grader {
   }
 
   Class& class_;
-  std::string shaders_;
   CheckRuns& runs_;
   std::vector<std::size_t> named_;    ///< mistakes
   std::vector<std::string> hanging_;  ///< the functions that did not end in time; "": drawings
@@ -215,10 +259,9 @@ std::string missing_need(const Rubric& rubric, const Check& check, const std::ve
   return {};
 }
 
-Expected<StudentResult> grade_checks(Class& of, const std::string& name, const std::string& shaders,
-                                     CheckRuns& runs) {
+Expected<StudentResult> grade_checks(Class& of, const std::string& name, CheckRuns& runs) {
   StudentResult result{name, {}};
-  Grader grader(of, shaders, runs);
+  Grader grader(of, runs);
   for (const Check& check : of.rubric.checks) {
     if (std::string first = missing_need(of.rubric, check, result.checks); !first.empty()) {
       result.checks.push_back(no_points(std::move(first)));
@@ -234,18 +277,17 @@ Expected<StudentResult> grade_checks(Class& of, const std::string& name, const s
 /// `name`: plain text, whatever the folder is called.
 Expected<StudentResult> judge_student(Class& of, const Student& student, const std::string& name,
                                       const std::string& folder) {
-  const auto why_not = refusal(student, of.rubric);
-  if (!why_not) return fail(why_not.error());
-  if (!why_not->empty()) return StudentResult{name, {of.rubric.checks.size(), no_points(*why_not)}};
-  std::string shaders = student.folder;
-  if (!of.rubric.given.empty()) {
-    shaders = folder + "/shaders";
-    if (const auto written = write_with_given(student, of.rubric, shaders); !written)
-      return fail(written.error());
-  }
+  const auto handed_in = take_in(student, of.rubric);
+  if (!handed_in) return fail(handed_in.error());
+  if (!handed_in->refused.empty())
+    return StudentResult{name, {of.rubric.checks.size(), no_points(handed_in->refused)}};
+  const std::string shaders = folder + "/shaders";
+  if (const auto written = write_with_given(*handed_in, of.rubric, shaders); !written)
+    return fail(written.error());
   CheckRuns runs(of.rubric, shaders, folder);
-  runs.call_shaders(student.folder);
-  auto result = grade_checks(of, name, student.folder, runs);
+  runs.call_shaders(handed_in->files);
+  auto result = grade_checks(of, name, runs);
+  if (result) result->answer = answer_of(*handed_in);
   // A class of drawings would fill the disk.
   if (const auto removed = remove_all_of(folder); !removed && result) return fail(removed.error());
   return result;
@@ -255,8 +297,11 @@ Expected<StudentResult> judge_student(Class& of, const Student& student, const s
 StudentResult grade_student(Class& of, const Student& student, std::size_t index) {
   const std::string name = one_line(student.name);
   auto result = judge_student(of, student, name, fmt::format("{}/{}", of.work_folder, index));
-  if (result) return std::move(*result);
-  return {name, {of.rubric.checks.size(), no_points(result.error().message())}, result.error()};
+  if (!result)
+    result =
+        StudentResult{name, {of.rubric.checks.size(), no_points(result.error().message())}, result.error()};
+  result->participant = student.participant;
+  return std::move(*result);
 }
 
 /// What the program itself cannot draw is the rubric's fault.
@@ -290,7 +335,7 @@ Expected<Grades> grade_class(const Rubric& rubric, const std::vector<Student>& s
   Class of{rubric, work_folder, CheckRuns(rubric, own_shaders, work_folder + "/own"),
            Mistakes(rubric, work_folder + "/mistakes")};
   if (const auto drawn = check_drawings(of); !drawn) return fail(drawn.error());
-  auto own = grade_checks(of, std::string(own_shader_name), "", of.own);
+  auto own = grade_checks(of, std::string(own_shader_name), of.own);
   if (!own) return fail(own.error());
   of.own.end_process();
   std::vector<StudentResult> graded(students.size());

@@ -11,6 +11,7 @@
 
 #include "compare/comparison.h"
 #include "grade/rubric.h"
+#include "grade/student.h"
 #include "scene/base/expected.h"
 
 namespace gnomon::grade {
@@ -29,6 +30,7 @@ struct CheckResult {
   std::string excerpt;            ///< lines of the student's file around an error; may be empty
   bool mistake_named =
       false;  ///< a usual mistake explains what was drawn: later checks go on as if it were mended
+  std::string mistake{};  ///< which: "the tangent was halved, not the angle"; empty: none is named
 };
 
 struct StudentResult {
@@ -36,6 +38,8 @@ struct StudentResult {
   std::vector<CheckResult> checks;  ///< in the rubric's order
   /// Why nothing could be judged, which is no fault of the shader's: then there are no points, given or lost.
   std::optional<Error> error = std::nullopt;
+  std::string answer{};       ///< what counts of what was handed in; empty: nothing
+  Participant participant{};  ///< as a platform knows the student
   double points() const;
 };
 

@@ -151,8 +151,11 @@ Expected<Agreement> Mistakes::agreement(std::size_t mistake, const Run& run, con
 Expected<std::vector<std::size_t>> Mistakes::explaining(const Run& run, const DrawnValues& drawn,
                                                         const DrawnValues& right) {
   if (drawn.is_uniform) return std::vector<std::size_t>{};
+  const auto all = draw(run, right);
+  if (!all) return fail(all.error());
   std::vector<std::pair<std::uint64_t, std::size_t>> found;
   for (std::size_t i = 0; i < all_.size(); ++i) {
+    if ((*all)->values[i].is_uniform) continue;  // nor is it known by its answers
     const auto beside = agreement(i, run, drawn, right);
     if (!beside) return fail(beside.error());
     if (beside->wrong > 0 && beside->is_like()) found.emplace_back(beside->unlike, i);

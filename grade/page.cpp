@@ -20,9 +20,6 @@ namespace {
 using report::escaped;
 using report::flowing;
 
-using report::escaped;
-using report::flowing;
-
 std::string page(const std::string& title, const std::string& body) {
   const std::string style = fmt::format("\n{}", embedded::grade_page("page.css"));
   return fmt::format(
@@ -98,14 +95,31 @@ std::string class_row(const ClassResult& result, std::size_t index) {
   return row + "</tr>\n";
 }
 
+/// What the next lesson may begin with.
+std::string common_html(const ClassResult& result) {
+  std::string items;
+  for (const CommonLoss& loss : common_losses(result))
+    items += fmt::format("<li>{}</li>\n", flowing(loss_words(result, loss)));
+  return items.empty() ? items : fmt::format("<h2>What to say next time</h2>\n<ul>\n{}</ul>\n", items);
+}
+
+/// Where a platform takes a student's page back: a folder of Moodle's and Brightspace's name, a file of the name that others gave.
+std::string feedback_place(const Participant& participant) {
+  constexpr std::size_t longest = 250;  // bytes of a file's name, with room for its ending
+  if (participant.platform == Platform::none) return {};
+  const std::string name = participant.returned_as.substr(0, longest);
+  const bool is_folder = participant.platform == Platform::moodle || participant.file.empty();
+  return is_folder ? fmt::format("feedback/{}/feedback.html", name) : fmt::format("feedback/{}.html", name);
+}
+
 std::string alike_html(const ClassResult& result) {
   if (result.alike.empty()) return {};
   std::string html =
       "<h2>Answers that are alike</h2>\n<p>Names, layout and comments do not count, nor what the exercise "
       "gives. "
       "Short right answers can be alike by themselves: look at both before you ask.</p>\n<ul>\n";
-  for (const AlikePair& pair : result.alike)
-    html += fmt::format("<li>{}</li>\n", flowing(alike_words(result, pair)));
+  for (const AlikeGroup& group : groups_of(result.alike))
+    html += fmt::format("<li>{}</li>\n", flowing(alike_words(result, group)));
   return html + "</ul>\n";
 }
 
@@ -137,7 +151,7 @@ std::string class_page(const ClassResult& result) {
                         in_its_language(result.rubric, escaped(check.name)), check.points);
   body += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < result.students.size(); ++i) body += class_row(result, i);
-  body += "</tbody>\n</table>\n</div>\n" + alike_html(result);
+  body += "</tbody>\n</table>\n</div>\n" + common_html(result) + alike_html(result);
   body +=
       fmt::format("<p class=\"quiet\">Made by <code>{}</code></p>\n</main>\n", escaped(result.command_line));
   return page(result.rubric.title, body);
@@ -162,8 +176,14 @@ Expected<void> write_pages(const ClassResult& result, const std::string& folder,
                                                             {"index.html", class_page(result)}};
   for (std::size_t i = 0; i < result.students.size(); ++i)
     files.emplace_back(result.pages[i], student_page(result.rubric, result.students[i]));
-  for (const auto& [name, text] : files)
-    if (auto written = write_file(staged->path() + "/" + name, text); !written) return written;
+  for (std::size_t i = 0; i < result.students.size(); ++i)
+    if (std::string place = feedback_place(result.students[i].participant); !place.empty())
+      files.emplace_back(std::move(place), student_page(result.rubric, result.students[i]));
+  for (const auto& [name, text] : files) {
+    const std::string path = staged->path() + "/" + name;
+    if (const auto made = make_folder_for(path); !made) return made;
+    if (auto written = write_file(path, text); !written) return written;
+  }
   StagedFiles also;
   return also.publish(*staged, "index.html", inputs, elsewhere);
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "compare/result/number_text.h"
 #include "compare/result/option_names.h"
@@ -28,12 +27,14 @@ std::string points_field(const StudentResult& student, double points) {
 Json student_json(const ClassResult& result, std::size_t index) {
   const StudentResult& student = result.students[index];
   Json checks = Json::array();
-  for (std::size_t i = 0; i < student.checks.size(); ++i)
+  for (std::size_t i = 0; i < student.checks.size(); ++i) {
     checks.push_back({{"name", result.rubric.checks[i].name},
                       {"points", points_json(student, student.checks[i].points)},
                       {"of", result.rubric.checks[i].points},
                       {"reason", student.checks[i].reason},
                       {"command", student.checks[i].command}});
+    if (!student.checks[i].mistake.empty()) checks.back()["mistake"] = student.checks[i].mistake;
+  }
   Json json = {{"name", student.name},
                {"page", result.pages[index]},
                {"points", points_json(student, student.points())},
@@ -52,12 +53,15 @@ Json alike_json(const ClassResult& result) {
   return pairs;
 }
 
-/// Whose folder it is that Moodle gave this name: "Ada Lovelace_12345_assignsubmission_file". Of any other the name alone.
-std::pair<std::string, std::string> moodle_participant(const std::string& folder) {
-  static const std::regex form("(.*)_([0-9]+)_assignsubmission_[a-z]+_?");
-  std::smatch found;
-  if (!std::regex_match(folder, found, form)) return {"", folder};
-  return {"Participant " + found[2].str(), found[1].str()};
+Json common_json(const ClassResult& result) {
+  Json losses = Json::array();
+  for (const CommonLoss& loss : common_losses(result)) {
+    Json names = Json::array();
+    for (const std::size_t student : loss.students) names.push_back(result.students[student].name);
+    losses.push_back(
+        {{"words", loss.words}, {"is_mistake", loss.is_mistake}, {"students", std::move(names)}});
+  }
+  return losses;
 }
 
 /// What lost points, and why, in one field.
@@ -73,15 +77,32 @@ std::string feedback(const Rubric& rubric, const StudentResult& student) {
   return text;
 }
 
-/// The columns of an offline grading worksheet that Moodle reads back (Moodle 4, "Offline grading worksheet").
+std::string field(const std::string& plain) {
+  return compare::csv_field(compare::csv_name(plain));
+}
+
+/// The columns of an offline grading worksheet that Moodle reads back (Moodle 4, "Offline grading worksheet"). A name is as it is there.
 std::string moodle_csv(const ClassResult& result) {
   std::string text = "Identifier,Full name,Grade,Maximum Grade,Feedback comments\n";
-  const auto field = [](const std::string& plain) { return compare::csv_field(compare::csv_name(plain)); };
   for (const StudentResult& student : result.students) {
-    const auto [identifier, name] = moodle_participant(student.name);
-    text += fmt::format("{},{},{},{:g},{}\n", field(identifier), field(name),
+    const bool known = student.participant.platform == Platform::moodle;
+    text += fmt::format("{},{},{},{:g},{}\n", known ? field("Participant " + student.participant.id) : "",
+                        compare::csv_field(known ? student.participant.name : student.name),
                         points_field(student, student.points()), result.rubric.points(),
                         field(feedback(result.rubric, student)));
+  }
+  return text;
+}
+
+/// The columns of a gradebook that Canvas reads in ("Upload Scores"): students are told apart by their ID, the assignment by its title.
+std::string canvas_csv(const ClassResult& result) {
+  std::string text =
+      fmt::format("Student,ID,SIS User ID,SIS Login ID,Section,{}\n    Points Possible,,,,,{:g}\n",
+                  field(result.rubric.title), result.rubric.points());
+  for (const StudentResult& student : result.students) {
+    const bool known = student.participant.platform == Platform::canvas;
+    text += fmt::format("{},{},,,,{}\n", compare::csv_field(known ? student.participant.name : student.name),
+                        known ? student.participant.id : "", points_field(student, student.points()));
   }
   return text;
 }
@@ -107,6 +128,7 @@ std::string grade_json(const ClassResult& result) {
                {"rubric", result.rubric.title}};
   if (!result.rubric.technique.empty()) root["technique"] = result.rubric.technique;
   root["students"] = std::move(students);
+  root["common"] = common_json(result);
   root["alike"] = alike_json(result);
   return plain_lines(root.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
@@ -126,14 +148,56 @@ std::string grade_csv(const ClassResult& result) {
 }
 
 std::string grade_csv(const ClassResult& result, CsvForm form) {
-  return form == CsvForm::moodle ? moodle_csv(result) : grade_csv(result);
+  if (form == CsvForm::moodle) return moodle_csv(result);
+  return form == CsvForm::canvas ? canvas_csv(result) : grade_csv(result);
 }
 
-std::string alike_words(const ClassResult& result, const AlikePair& pair) {
-  return fmt::format("{} and {}: {}", one_line(result.students[pair.first].name),
-                     one_line(result.students[pair.second].name),
-                     pair.same_text ? "the very same text"
-                                    : compare::percent(pair.share) + " of what is their own, names aside");
+std::string alike_words(const ClassResult& result, const AlikeGroup& group) {
+  std::string names;
+  for (std::size_t i = 0; i < group.students.size(); ++i)
+    names += (i == 0                           ? ""
+              : i + 1 == group.students.size() ? " and "
+                                               : ", ") +
+             one_line(result.students[group.students[i]].name);
+  return fmt::format(
+      "{}: {}", names,
+      group.same_text ? "the very same text"
+                      : fmt::format("{}{} of what is their own, names aside", compare::percent(group.share),
+                                    group.students.size() > 2 ? " and more" : ""));
+}
+
+std::vector<CommonLoss> common_losses(const ClassResult& result) {
+  std::vector<CommonLoss> all;
+  const auto add = [&](const std::string& words, bool is_mistake, std::size_t student) {
+    const auto is_it = [&](const CommonLoss& loss) {
+      return loss.words == words && loss.is_mistake == is_mistake;
+    };
+    const auto known = std::ranges::find_if(all, is_it);
+    CommonLoss& loss = known != all.end() ? *known : all.emplace_back(CommonLoss{words, is_mistake, {}});
+    if (loss.students.empty() || loss.students.back() != student) loss.students.push_back(student);
+  };
+  for (std::size_t i = 0; i < result.students.size(); ++i) {
+    const StudentResult& student = result.students[i];
+    for (std::size_t k = 0; k < student.checks.size() && !student.error; ++k) {
+      const Check& check = result.rubric.checks[k];
+      const std::string& mistake = student.checks[k].mistake;
+      const std::string function = check.runs.empty() ? std::string() : check.runs.front().function;
+      if (!mistake.empty())
+        add(fmt::format("{} as if {}", function.empty() ? "drawn" : function, mistake), true, i);
+      else if (student.checks[k].points < check.points)
+        add(check.name, false, i);
+    }
+  }
+  std::erase_if(all, [](const CommonLoss& loss) { return loss.students.size() < 2; });
+  std::ranges::stable_sort(all, [](const CommonLoss& a, const CommonLoss& b) {
+    return a.is_mistake != b.is_mistake ? a.is_mistake : a.students.size() > b.students.size();
+  });
+  return all;
+}
+
+std::string loss_words(const ClassResult& result, const CommonLoss& loss) {
+  return fmt::format("{} of {}{}: {}", loss.students.size(), result.students.size(),
+                     loss.is_mistake ? "" : " without points of", one_line(loss.words));
 }
 
 namespace {
@@ -167,8 +231,11 @@ std::string grade_table(const ClassResult& result) {
     text += fmt::format("{:<{}}  {}\n", name, width, points_text(student.points(), result.rubric.points()));
     text += lost_points(result.rubric, student);
   }
+  const std::vector<CommonLoss> losses = common_losses(result);
+  if (!losses.empty()) text += "\nWhat to say next time:\n";
+  for (const CommonLoss& loss : losses) text += "  " + loss_words(result, loss) + "\n";
   if (!result.alike.empty()) text += "\nAnswers that are alike (look at them before you ask):\n";
-  for (const AlikePair& pair : result.alike) text += "  " + alike_words(result, pair) + "\n";
+  for (const AlikeGroup& group : groups_of(result.alike)) text += "  " + alike_words(result, group) + "\n";
   return text;
 }
 

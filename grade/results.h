@@ -33,13 +33,25 @@ std::string grade_csv(const ClassResult& result);
 /// The same for a learning platform to read in.
 enum class CsvForm : std::uint8_t {
   points,  ///< grade_csv()
-  moodle   ///< Moodle's offline grading worksheet: identifier, name, grade, the most there is, feedback
+  moodle,  ///< Moodle's offline grading worksheet: identifier, name, grade, the most there is, feedback
+  canvas   ///< Canvas' gradebook: student, ID, and the points below the rubric's title
 };
 std::string grade_csv(const ClassResult& result, CsvForm form);
 /// One paragraph for each student: points, and every check that lost some, with the reason; or why there are none.
 std::string grade_table(const ClassResult& result);
-/// "anna and bert: 94 % of what is their own, names aside".
-std::string alike_words(const ClassResult& result, const AlikePair& pair);
+/// "anna, bert and carl: the very same text", "anna and bert: 94 % of what is their own, names aside".
+std::string alike_words(const ClassResult& result, const AlikeGroup& group);
+
+/// What several of a class have in common, so that the next lesson can begin with it.
+struct CommonLoss {
+  std::string words;        ///< "eye_ray as if the ray went through the pixel's corner", or a check's name
+  bool is_mistake = false;  ///< named, or a check that lost points without a name
+  std::vector<std::size_t> students;
+};
+/// Mistakes that are named, the most frequent first, then checks that lost points without a name, likewise; each of two students or more.
+std::vector<CommonLoss> common_losses(const ClassResult& result);
+/// "14 of 60: eye_ray as if the ray went through the pixel's corner (0.5 is left out)".
+std::string loss_words(const ClassResult& result, const CommonLoss& loss);
 /// "17.5 of 20".
 std::string points_text(double points, double of);
 

@@ -88,32 +88,4 @@ Expected<Rubric> read_rubric(const std::string& path);
 /// "tilted.json --map-size 512 --bias 0.01": the run as words of a command line in the rubric's folder.
 std::string run_text(const Run& run);
 
-// What was handed in: one folder for each student.
-
-struct Student {
-  std::string name;                   ///< the folder's own: any bytes
-  std::string folder;                 ///< as given
-  std::optional<Error> unreadable{};  ///< why nobody can say what the folder holds
-};
-
-/// Each path is a student's folder, or a folder of such folders (those in it, by name, links among them, which refusal()
-/// names). A folder with a shader in it, or with no folder in it, is a student's own, and so is one that cannot be read.
-/// Errors: no such folder, two students of one name (usage); none of the folders can be read (bad_input).
-Expected<std::vector<Student>> find_students(const std::vector<std::string>& paths);
-
-/// Why nothing of the folder is drawn with; empty where all is well. The reasons are:
-/// - The folder or something in it is a link, which could name what is somebody else's.
-/// - A shader is a folder, a pipe or a device.
-/// - There are more than 4 MiB of shaders.
-/// - A shader is not to be handed in.
-/// - None differs from the program's own.
-/// Error (bad input): what lies there cannot be read, so that nobody can tell what was handed in.
-Expected<std::string> refusal(const Student& student, const Rubric& rubric);
-
-/// Returns the shaders that count, one after the other, by name; nothing of who is refused. Error as of refusal().
-Expected<std::string> answer_of(const Student& student, const Rubric& rubric);
-
-/// Puts what was handed in beside what the rubric gives, into `folder`.
-Expected<void> write_with_given(const Student& student, const Rubric& rubric, const std::string& folder);
-
 }  // namespace gnomon::grade

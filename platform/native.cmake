@@ -24,6 +24,7 @@ find_package(hwy REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
+find_package(LibArchive REQUIRED)  # gnomon grade alone
 
 # Dear ImGui, for the window alone; its library has the GLFW and OpenGL 3 backends in it. It has no CMake file.
 find_package(PkgConfig REQUIRED)

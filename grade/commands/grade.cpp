@@ -16,6 +16,7 @@
 #include "app/outputs/render_json.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
+#include "grade/archive.h"
 #include "grade/results.h"
 #include "scene/base/expected.h"
 
@@ -24,7 +25,8 @@ namespace gnomon::app {
 namespace {
 
 constexpr std::pair<std::string_view, grade::CsvForm> csv_forms[] = {{"points", grade::CsvForm::points},
-                                                                     {"moodle", grade::CsvForm::moodle}};
+                                                                     {"moodle", grade::CsvForm::moodle},
+                                                                     {"canvas", grade::CsvForm::canvas}};
 
 struct GradeCommand {
   std::string rubric;
@@ -74,7 +76,10 @@ Expected<RunFiles> check_grade_files(const GradeCommand& command,
     return fail(ErrorKind::usage, "--json and --csv: stdout takes one of the two (got - for both)");
   RunFiles files;
   if (!grade::is_kit(command.rubric)) files.reads(command.rubric);
-  for (const std::string& folder : command.students) files.reads_shaders(folder);
+  for (const std::string& folder : command.students) {
+    if (grade::is_archive(folder)) files.reads(folder);
+    files.reads_shaders(folder);
+  }
   files.writes("--json", command.json);
   files.writes("--csv", command.csv);
   const std::vector<std::string> pages = pages_of(students);
@@ -141,19 +146,20 @@ Expected<ExitCode> ungraded(const std::vector<grade::StudentResult>& students) {
 Expected<ExitCode> run_grade(const GradeCommand& command) {
   Console console(command.quiet);
   if (!command.kit_folder.empty()) return write_new_kit(command, console);
-  const auto students = grade::find_students(command.students);
+  const TemporaryFolder work("gnomon-grade");
+  if (work.path().empty()) return fail(ErrorKind::cannot_write, "no folder for temporary files can be made");
+  const auto students = grade::find_students(command.students, work.path() + "/unpacked");
   if (!students) return fail(students.error());
   auto files = check_grade_files(command, *students);
   if (!files) return fail(files.error());
-  const TemporaryFolder work("gnomon-grade");
-  if (work.path().empty()) return fail(ErrorKind::cannot_write, "no folder for temporary files can be made");
   const auto rubric = find_rubric(command, work.path());
   if (!rubric) return fail(rubric.error());
   if (const auto kept = keep_scenes(*rubric, *files); !kept) return fail(kept.error());
   const auto graded = grade_all(command, *rubric, *students, work.path(), console);
   if (!graded) return fail(graded.error());
-  const grade::ClassResult result{*rubric, *graded, command.command_line,
-                                  grade::find_alike(*students, *rubric)};
+  std::vector<grade::Answer> answers;
+  for (const grade::StudentResult& student : *graded) answers.push_back(student.answer);
+  const grade::ClassResult result{*rubric, *graded, command.command_line, grade::alike_in(answers, *rubric)};
   console.clear_progress();
   const bool prints_data = command.json == "-" || command.csv == "-";
   if (!command.quiet && !prints_data) print_data(grade::grade_table(result));
@@ -184,7 +190,7 @@ GNOMON_COMMAND(grade, 150,
              "folder for a page for each student, index.html, grades.json and grades.csv [default: none]");
   add_output(*app, "--csv", command->csv, "FILE|-", "also write the points as CSV [default: none]");
   add_choice(*app, "--csv-form", command->csv_form, csv_forms, "NAME",
-             "columns of --csv: points of each check, or those that Moodle reads in");
+             "columns of --csv: points of each check, or those that Moodle or Canvas reads in");
   add_output(*app, "--new", command->kit_folder, "DIR",
              "instead write what a class needs to begin: the rubric, its scenes, and the shader with its "
              "steps to fill in");

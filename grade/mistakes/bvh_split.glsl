@@ -38,6 +38,10 @@
 // mistake 36: the second half of centres in one place went left
 // mistake 37: the box of the centres held the origin of the world
 // mistake 38: the middle was a quarter of the way
+// mistake 39: of an odd number of centres in one place the larger half went left
+// mistake 40: of centres in one place the first alone went left
+// mistake 41: the bits began at 2, not at 1
+// mistake 42: z was held against x alone
 vec3 triangle_corner(int triangle, int corner);
 
 vec3 center_of(int i) {
@@ -63,7 +67,7 @@ int bvh_split(int triangles) {
   if (MISTAKE == 33) extent.x = -1.0;
   if (MISTAKE == 34) extent.y = -1.0;
   int axis = extent.y > extent.x ? 1 : 0;
-  if (extent.z > extent[axis]) axis = 2;
+  if (extent.z > extent[MISTAKE == 42 ? 0 : axis] && !(MISTAKE == 42 && axis == 1)) axis = 2;
   if (MISTAKE == 2) {
     axis = extent.y < extent.x ? 1 : 0;
     if (extent.z < extent[axis]) axis = 2;
@@ -87,12 +91,12 @@ int bvh_split(int triangles) {
     int lower = 0;
     for (int k = 0; k < count; ++k) lower += center_of(k)[axis] < place ? 1 : 0;
     bool goes = MISTAKE == 6 ? lower < triangles / 2 : MISTAKE == 7 ? place > middle : place < middle;
-    if (one_place || MISTAKE == 17) goes = i < triangles / 2;
+    if (one_place || MISTAKE == 17) goes = i < (MISTAKE == 39 ? (triangles + 1) / 2 : MISTAKE == 40 ? 1 : triangles / 2);
     if (one_place && (MISTAKE == 11 || MISTAKE == 12)) goes = MISTAKE == 12;
     if (one_place && MISTAKE == 35) goes = i % 2 == 0;
     if (one_place && MISTAKE == 36) goes = i >= triangles / 2;
     if (MISTAKE == 23 || MISTAKE == 24) goes = MISTAKE == 23;
-    left += goes ? MISTAKE == 25 ? 1 : MISTAKE == 26 ? i : 1 << (MISTAKE == 15 ? triangles - 1 - i : i) : 0;
+    left += goes ? MISTAKE == 25 ? 1 : MISTAKE == 26 ? i : 1 << (MISTAKE == 15 ? triangles - 1 - i : MISTAKE == 41 ? i + 1 : i) : 0;
   }
   return left;
 }

@@ -28,6 +28,14 @@
 // mistake 26: a child's box in which the ray begins was not met
 // mistake 27: t was counted from where the ray enters the leaf's box
 // mistake 28: a walk that finds nothing was answered with a very large number
+// mistake 29: the box of every node was asked before any leaf
+// mistake 30: the box of every node was asked, and the leaves by where their boxes begin
+// mistake 31: the stack had room for two nodes
+// mistake 32: the stack had room for three nodes
+// mistake 33: no box was asked (all leaves are asked)
+// mistake 34: a leaf that is missed was hit at -1
+// mistake 35: the stack had room for one node
+// mistake 36: the farther child was forgotten, and the only one that is met
 float box_entry(int node);
 int left_child(int node);
 int right_child(int node);
@@ -38,13 +46,53 @@ bool is_met(float entry) {
 }
 
 bool is_cut(float entry, float nearest) {
-  if (MISTAKE == 2 || MISTAKE == 7 || MISTAKE == 24 || nearest < 0.0) return false;
+  if (MISTAKE == 2 || MISTAKE == 7 || MISTAKE == 24 || nearest < 0.0) return MISTAKE == 34 && nearest < 0.0;
   return MISTAKE == 21 ? entry < nearest : entry > nearest;
 }
 
+// Without order: a leaf is asked wherever it stands.
+float all_leaves() {
+  float nearest = -1.0;
+  for (int node = 0; node < 11; ++node) {
+    if (left_child(node) >= 0) continue;
+    float t = hit_in_leaf(node);
+    if (t >= 0.0 && (nearest < 0.0 || t < nearest)) nearest = t;
+  }
+  return nearest;
+}
+
+// All boxes, then the leaves whose boxes are met, the nearer first.
+float by_boxes() {
+  float entries[11], nearest = -1.0;
+  for (int node = 0; node < 11; ++node) entries[node] = left_child(node) < 0 ? box_entry(node) : min(-1.0, box_entry(node));
+  for (int turn = 0; turn < 11; ++turn) {
+    int first = -1;
+    for (int node = 0; node < 11; ++node)
+      if (entries[node] >= 0.0 && (first < 0 || entries[node] < entries[first])) first = node;
+    if (first < 0 || nearest >= 0.0 && entries[first] > nearest) break;
+    float t = hit_in_leaf(first);
+    if (t >= 0.0 && (nearest < 0.0 || t < nearest)) nearest = t;
+    entries[first] = -1.0;
+  }
+  return nearest;
+}
+
 float bvh_walk() {
-  int stack[32], first = 0, size = 0;
-  float entries[32], none = MISTAKE == 14 ? 0.0 : MISTAKE == 25 ? 1e30 : -1.0, nearest = -1.0;
+#if MISTAKE == 31
+  const int room = 2;
+#elif MISTAKE == 35
+  const int room = 1;
+#elif MISTAKE == 32
+  const int room = 3;
+#else
+  const int room = 32;
+#endif
+  if (MISTAKE == 30) return by_boxes();
+  if (MISTAKE == 33) return all_leaves();
+  if (MISTAKE == 29)
+    for (int node = 0; node < 11; ++node) box_entry(node);
+  int stack[room], first = 0, size = 0;
+  float entries[room], none = MISTAKE == 14 ? 0.0 : MISTAKE == 25 ? 1e30 : -1.0, nearest = MISTAKE == 34 ? 1e30 : -1.0;
   float root = box_entry(0);
   if (MISTAKE == 15 ? root <= 0.0 : root < 0.0 && MISTAKE != 18 && MISTAKE != 24) return none;
   if (MISTAKE == 11 && left_child(0) < 0) return none;
@@ -58,7 +106,7 @@ float bvh_walk() {
       float t = hit_in_leaf(node);
       if (MISTAKE == 12 && t >= 0.0) t = entries[at];
       if (MISTAKE == 27 && t >= 0.0) t += entries[at];
-      bool nearer = t >= 0.0 && (nearest < 0.0 || (MISTAKE == 10 ? t > nearest : t < nearest) || MISTAKE == 9);
+      bool nearer = (t >= 0.0 || MISTAKE == 34) && (nearest < 0.0 && MISTAKE != 34 || (MISTAKE == 10 ? t > nearest : t < nearest) || MISTAKE == 9);
       if (nearer || MISTAKE == 16 && t < 0.0) nearest = t;
       if (MISTAKE == 19 || MISTAKE == 1 && t >= 0.0 || MISTAKE == 20 && t < 0.0) break;
       continue;
@@ -77,9 +125,11 @@ float bvh_walk() {
     }
     bool both = meets_a && meets_b;
     if (MISTAKE == 8) size = 0;
-    if (meets_b && !(MISTAKE == 3 && both)) stack[size] = right, entries[size] = b, ++size;
+    if (MISTAKE == 36 && !both) continue;
+    if (meets_b && !((MISTAKE == 3 || MISTAKE == 36) && both)) stack[size] = right, entries[size] = b, ++size;
     if (MISTAKE == 8 && both) size = 0;
     if (meets_a) stack[size] = left, entries[size] = a, ++size;
   }
+  if (MISTAKE == 34) return nearest < 1e30 ? nearest : -1.0;
   return nearest < 0.0 ? MISTAKE == 28 ? 1e30 : none : nearest;
 }

@@ -25,13 +25,25 @@
 // mistake 23: total reflection was answered with -1
 // mistake 24: the larger share was that of all light
 // mistake 25: the two polarisations were multiplied
+// mistake 26: the mean of the amplitudes was squared, not their squares averaged
+// mistake 27: the half was taken twice
+// mistake 28: the indices were exchanged in Snell's law
+// mistake 29: the root was left out of the first sine
+// mistake 30: a negative number under the root lost its sign (total reflection is not tested)
+// mistake 31: the test of total reflection was turned round
+// mistake 32: Schlick's approximation were the answer, with another power
+// mistake 33: total reflection reflected half of the light
+// mistake 34: the ratio was not squared in Snell's law
+// mistake 35: the second amplitude came in once, the first twice
+// mistake 36: n2 alone stood in the second polarisation
+// mistake 37: the amplitudes were added (they are not squared, and may cancel)
 float fresnel(float cosine, float n1, float n2) {
   if (MISTAKE == 2) { float n = n1; n1 = n2; n2 = n; }
   float c1 = MISTAKE == 12 ? 1.0 : cosine, eta = n1 / n2;
-#if MISTAKE == 1
+#if MISTAKE == 1 || MISTAKE == 32
   float r0 = (n1 - n2) / (n1 + n2);
   r0 *= r0;
-  return r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
+  return r0 + (1.0 - r0) * pow(1.0 - c1, MISTAKE == 32 ? 4.0 : 5.0);
 #endif
   float rest = 1.0 - eta * eta * (MISTAKE == 15 ? 1.0 - c1 : 1.0 - c1 * c1);
 #if MISTAKE == 21 || MISTAKE == 22
@@ -40,6 +52,15 @@ float fresnel(float cosine, float n1, float n2) {
   if (MISTAKE == 22) first *= first;
   return first + (1.0 - first) * pow(1.0 - c, 5.0);
 #endif
+  if (MISTAKE == 28) rest = 1.0 - (1.0 - c1 * c1) / (eta * eta);
+  if (MISTAKE == 29) rest = 1.0 - eta * eta * (1.0 - c1 * c1) * (1.0 - c1 * c1);
+  if (MISTAKE == 34) rest = 1.0 - eta * (1.0 - c1 * c1);
+  if (MISTAKE == 30) rest = abs(rest);
+  if (MISTAKE == 31) {
+    if (rest > 0.0) return 1.0;
+    rest = -rest;
+  }
+  if (MISTAKE == 33 && rest < 0.0) return 0.5;
   if (MISTAKE == 13) rest = max(rest, 0.0);
   if (rest < 0.0 && MISTAKE != 9) return MISTAKE == 8 ? 0.0 : MISTAKE == 23 ? -1.0 : 1.0;
   float c2 = MISTAKE == 10 ? c1 : MISTAKE == 16 ? rest : sqrt(rest);
@@ -48,12 +69,17 @@ float fresnel(float cosine, float n1, float n2) {
   if (MISTAKE == 18) below_across = below_along;
   if (MISTAKE == 19) along = n1 * c1 - n2 * c2;
   if (MISTAKE == 20) below_along = n1 * c1 + n2 * c2;
+  if (MISTAKE == 36) along = n2 * c1 - n2 * c2, below_along = n2 * c1 + n2 * c2;
   float a = across / below_across, b = along / below_along;
   if (MISTAKE == 3) return 0.5 * (abs(a) + abs(b));
   if (MISTAKE == 4) return a * a;
   if (MISTAKE == 5) return b * b;
   if (MISTAKE == 6) return a * a + b * b;
   if (MISTAKE == 7) return 1.0 - 0.5 * (a * a + b * b);
+  if (MISTAKE == 26) return 0.25 * (abs(a) + abs(b)) * (abs(a) + abs(b));
+  if (MISTAKE == 27) return 0.25 * (a * a + b * b);
+  if (MISTAKE == 35) return 0.5 * (a * a + a * b);
+  if (MISTAKE == 37) return 0.5 * (a + b);
   if (MISTAKE == 24) return max(a * a, b * b);
   if (MISTAKE == 25) return a * a * b * b;
   if (MISTAKE == 11) return abs(a * b);

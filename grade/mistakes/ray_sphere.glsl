@@ -34,6 +34,19 @@
 // mistake 32: the radius was half as large
 // mistake 33: a sphere whose center is behind the ray's begin was not there
 // mistake 34: the way to the place nearest to the center was not squared
+// mistake 35: a ray that begins inside met the sphere at 0
+// mistake 36: what is behind the ray's begin was at 0
+// mistake 37: a ray that touches had to pass well inside (0.25 in place of 0)
+// mistake 38: a was left out of the discriminant
+// mistake 39: the division by a was left out
+// mistake 40: b lacked its 2 where 4 a c and 2 a are those of the whole formula
+// mistake 41: a hit was none within 0.1 of the ray's begin (what counts as 0 is too large)
+// mistake 42: a hit was none within 0.001 of the ray's begin (what counts as 0 is too large)
+// mistake 43: the test of the discriminant was turned round
+// mistake 44: the nearer of the two places was taken by its absolute value
+// mistake 45: the nearer place was half as far
+// mistake 46: the center's distance from the origin of the world was taken for that from the ray's begin
+// mistake 47: the radius was cubed, not squared
 float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   vec3 o = origin - center, d = direction;
 #if MISTAKE == 2
@@ -46,21 +59,26 @@ float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   if (MISTAKE == 32) radius *= 0.5;
   float a = MISTAKE == 1 ? 1.0 : dot(d, d);
   float b = MISTAKE == 9 ? -dot(o, d) : dot(o, d);
-  float c = (MISTAKE == 28 ? length(o) : dot(o, o)) - (MISTAKE == 8 ? radius : MISTAKE == 19 ? 0.0 : (MISTAKE == 21 ? -radius : radius) * radius);
+  float c = (MISTAKE == 28 ? length(o) : MISTAKE == 46 ? dot(center, center) : dot(o, o)) - (MISTAKE == 8 ? radius : MISTAKE == 19 ? 0.0 : (MISTAKE == 21 ? -radius : MISTAKE == 47 ? radius * radius : radius) * radius);
   float discriminant = b * b - (MISTAKE == 10 ? 4.0 : MISTAKE == 23 ? 0.25 : MISTAKE == 24 ? -1.0 : 1.0) * a * c;
 #if MISTAKE == 12
   discriminant = abs(discriminant);
 #endif
+  if (MISTAKE == 38) discriminant = b * b - c;
+  if (MISTAKE == 40) discriminant = b * b - 4.0 * a * c;
+  if (MISTAKE == 43 && discriminant > 0.0) return none;
   if (MISTAKE == 33 && b > 0.0) return none;
   if (MISTAKE == 34) discriminant = -b * sqrt(a) - a * c;
-  if (MISTAKE != 17 && discriminant < (MISTAKE == 15 ? 0.1 : 0.0)) return none;
+  if (MISTAKE != 17 && discriminant < (MISTAKE == 15 ? 0.1 : MISTAKE == 37 ? 0.25 : 0.0) && MISTAKE != 43) return none;
   float root = MISTAKE == 11 ? discriminant : sqrt(discriminant);
-  if (MISTAKE == 13) a *= 2.0;
+  if (MISTAKE == 13 || MISTAKE == 40) a *= 2.0;
+  if (MISTAKE == 39) a = 1.0;
   if (MISTAKE == 22) a *= 0.5;
   if (MISTAKE == 25) a = 1.0 / a;
-  float near = (-b - root) / a, far = (-b + root) / a, least = MISTAKE == 29 ? 0.01 : 0.0;
+  float near = (-b - root) / a, far = (-b + root) / a, least = MISTAKE == 29 ? 0.01 : MISTAKE == 41 ? 0.1 : MISTAKE == 42 ? 0.001 : 0.0;
   if (MISTAKE == 26) near = -b - root / a, far = -b + root / a;
   if (MISTAKE == 31) near = -2.0 * b - root / a, far = -2.0 * b + root / a;
+  if (MISTAKE == 45) near *= 0.5;
 #if MISTAKE == 4
   return far >= 0.0 ? far : none;
 #elif MISTAKE == 5
@@ -69,6 +87,12 @@ float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   return near >= 0.0 ? near : none;
 #elif MISTAKE == 7
   return min(abs(near), abs(far));
+#elif MISTAKE == 35
+  return near >= 0.0 ? near : far >= 0.0 ? 0.0 : none;
+#elif MISTAKE == 36
+  return max(near, 0.0);
+#elif MISTAKE == 44
+  return abs(near);
 #elif MISTAKE == 14
   return far >= 0.0 ? near : none;
 #elif MISTAKE == 16

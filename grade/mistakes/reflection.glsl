@@ -14,6 +14,14 @@
 // mistake 12: the dot product was left out (twice the normal is taken away)
 // mistake 13: the whole normal was added
 // mistake 14: the normal was taken away once
+// mistake 15: the direction was turned round, but not what is taken away
+// mistake 16: the factor was a half, not 2
+// mistake 17: the factor was 3, not 2
+// mistake 18: direction and normal were exchanged
+// mistake 19: the dot product was divided by the direction's length
+// mistake 20: the direction itself was left out
+// mistake 21: direction and normal were multiplied part by part, in place of the dot product
+// mistake 22: the normal was not multiplied with (its dot product is taken away from each part)
 vec3 reflection(vec3 direction, vec3 normal) {
   float d = dot(direction, normal);
   vec3 right = direction - 2.0 * d * normal;
@@ -43,6 +51,22 @@ vec3 reflection(vec3 direction, vec3 normal) {
   return direction + normal;
 #elif MISTAKE == 14
   return direction - normal;
+#elif MISTAKE == 15
+  return -direction - 2.0 * d * normal;
+#elif MISTAKE == 16
+  return direction - 0.5 * d * normal;
+#elif MISTAKE == 17
+  return direction - 3.0 * d * normal;
+#elif MISTAKE == 18
+  return normal - 2.0 * d * direction;
+#elif MISTAKE == 19
+  return direction - 2.0 * d / length(direction) * normal;
+#elif MISTAKE == 20
+  return -2.0 * d * normal;
+#elif MISTAKE == 21
+  return direction - 2.0 * direction * normal;
+#elif MISTAKE == 22
+  return direction - 2.0 * d;
 #elif MISTAKE == 10
   return direction - 2.0 * d * direction;
 #endif

@@ -29,10 +29,23 @@
 // mistake 27: a sun's ray ran away from it
 // mistake 28: the direction was that of the lamp from the origin of the world
 // mistake 29: the offset was a tenth
+// mistake 30: sun and lamp were exchanged
+// mistake 31: the side was that of the light's place, not of the way to it
+// mistake 32: a sun's ray had an end, if a far one
+// mistake 33: a sun's ray had an end, if a far one
+// mistake 34: a sun's ray had an end, if a far one
+// mistake 35: a sun's ray had an end, if a far one
+// mistake 36: a sun's ray had an end, if a far one
+// mistake 37: a lamp's ray ended at 0
+// mistake 38: the direction of a sun was not normalized
+// mistake 39: a lamp's direction was not normalized
+// mistake 40: a lamp's direction was its place
+// mistake 41: a sun's ray ran from the point, without the offset
+// mistake 42: the end was half the way
 void shadow_ray(vec3 point, vec3 normal, vec4 light, float offset, out vec3 begin, out vec3 direction, out float end) {
-  bool sun = MISTAKE == 10 ? false : MISTAKE == 11 ? true : light.w == 0.0;
+  bool sun = MISTAKE == 30 ? light.w != 0.0 : MISTAKE == 10 ? false : MISTAKE == 11 ? true : light.w == 0.0;
   vec3 to_light = sun ? light.xyz : light.xyz - point;
-  float side = dot(normal, to_light) < 0.0 && MISTAKE != 3 ? -1.0 : 1.0;
+  float side = dot(normal, MISTAKE == 31 ? light.xyz : to_light) < 0.0 && MISTAKE != 3 ? -1.0 : 1.0;
   if (MISTAKE == 4) side = -side;
   float by = MISTAKE == 1 ? 0.0 : MISTAKE == 14 ? 0.001 : MISTAKE == 22 ? 2.0 * offset : MISTAKE == 29 ? 0.1 * offset : offset;
   begin = point + by * (MISTAKE == 2 ? normalize(to_light) : side * normal);
@@ -49,6 +62,13 @@ void shadow_ray(vec3 point, vec3 normal, vec4 light, float offset, out vec3 begi
   if (MISTAKE == 9 && !sun) end = 1.0;
   if (MISTAKE == 15 && !sun) end = far * far;
   if (MISTAKE == 18 && !sun) end = far - offset;
+  if (sun && MISTAKE >= 32 && MISTAKE <= 36)
+    end = MISTAKE == 32 ? 100.0 : MISTAKE == 33 ? 1000.0 : MISTAKE == 34 ? 1e4 : MISTAKE == 35 ? 1e5 : 1e6;
+  if (MISTAKE == 37 && !sun) end = 0.0;
+  if (MISTAKE == 38 && sun || MISTAKE == 39 && !sun) direction = way;
+  if (MISTAKE == 40 && !sun) direction = light.xyz;
+  if (MISTAKE == 41 && sun) begin = point;
+  if (MISTAKE == 42 && !sun) end = 0.5 * far;
   if (MISTAKE == 6) direction = -direction;
   if (MISTAKE == 16 && !sun) begin = light.xyz, direction = -direction;
   if (MISTAKE == 17) direction = normal;

@@ -48,13 +48,13 @@ add_test(NAME renderdoc_page_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_L
 set_tests_properties(renderdoc_page_test PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 
 # gnomon grade: answers that are alike; and the program on shaders with known faults.
-gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp LIBS gnomon::grade)
+gnomon_test(grade_alike_test SOURCES grade_alike_test.cpp grade_rules_test.cpp LIBS gnomon::grade)
 gnomon_test(grade_gl_test
   SOURCES grade_gl_test.cpp grade_rubrics_gl_test.cpp grade_class_gl_test.cpp
   LIBS app_process nlohmann_json::nlohmann_json PARTS 5)
 add_dependencies(grade_gl_test gnomon_programs)
 gnomon_test(grade_functions_gl_test
-  SOURCES grade_functions_gl_test.cpp grade_filter_gl_test.cpp
+  SOURCES grade_functions_gl_test.cpp grade_filter_gl_test.cpp grade_platforms_gl_test.cpp grade_macros_gl_test.cpp
   LIBS gnomon::grade app_process nlohmann_json::nlohmann_json PARTS 4)
 add_dependencies(grade_functions_gl_test gnomon_programs)
 

@@ -137,7 +137,28 @@ inline const std::vector<Wrong>& wrong_surfaces() {
       {"half-as-large", "b", "eye_ray", "0.5 * size.y / tan", "size.y / tan",
        "the picture was half as large"},
       {"turned", "a", "eye_ray", "u * t * aspect * right + v", "-u * t * aspect * right - v",
-       "both counted from the wrong end"}};
+       "both counted from the wrong end"},
+      {"half-tangent", "a", "eye_ray", "tan(radians(degrees) / 2.0)", "tan(radians(degrees)) / 2.0",
+       "the tangent was halved, not the angle"},
+      {"whole-numbers", "a", "eye_ray",
+       "2.0 * (pixel.x + 0.5) / size.x - 1.0;\n  float v = 1.0 - 2.0 * (pixel.y + 0.5) / size.y",
+       "2.0 * float(int(pixel.x) / int(size.x)) - 1.0;\n  float v = 1.0 - 2.0 * float(int(pixel.y) / "
+       "int(size.y))",
+       "every pixel was the first one"},
+      {"rows-for-columns", "b", "eye_ray", "pixel + vec2(0.5)", "pixel.yx + vec2(0.5)",
+       "rows and columns were exchanged"},
+      {"no-parallel", "a", "ray_plane", "if (slant == 0.0) return -1.0;\n", "",
+       "a parallel ray met the plane"},
+      {"cross-order", "b", "ray_triangle", "cross(direction, e2)", "cross(e2, direction)",
+       "was the wrong way round"},
+      {"areas", "a", "ray_triangle",
+       "  if (dot(n, cross(b - a, p - a)) < 0.0) return -1.0;\n  if (dot(n, cross(c - b, p - b)) < 0.0) "
+       "return -1.0;\n  if (dot(n, cross(a - c, p - c)) < 0.0) return -1.0;\n",
+       "  if (length(cross(b - p, c - p)) + length(cross(c - p, a - p)) + length(cross(a - p, b - p)) - "
+       "length(n) > "
+       "0.4) return -1.0;\n",
+       "held against the whole too coarsely"},
+      {"low-face", "a", "ray_box", " || origin[axis] > high[axis]", "", "against its low face alone"}};
   return all;
 }
 
@@ -216,7 +237,14 @@ inline const std::vector<Wrong>& wrong_light() {
       {"end-of-world", "a", "shadow_ray", "distance(light.xyz, begin)", "length(light.xyz)",
        "from the origin of the world"},
       {"sun-away", "a", "shadow_ray", "direction = normalize(light.xyz);",
-       "direction = -normalize(light.xyz);", "ran away from it"}};
+       "direction = -normalize(light.xyz);", "ran away from it"},
+      {"absolute-root", "a", "refraction", "if (k < 0.0) return vec3(0.0);", "k = abs(k);", "lost its sign"},
+      {"turned-test", "a", "refraction",
+       "if (k < 0.0) return vec3(0.0);\n  return r * direction + (r * c - sqrt(k))",
+       "if (k > 0.0) return vec3(0.0);\n  return r * direction + (r * c - sqrt(-k))", "was turned round"},
+      {"squared-mean", "a", "fresnel", "(s * s + p * p) / 2.0", "(abs(s) + abs(p)) * (abs(s) + abs(p)) / 4.0",
+       "the mean of the amplitudes was squared"},
+      {"sun-with-end", "a", "shadow_ray", "end = 1e30", "end = 10000.0", "had an end, if a far one"}};
   return all;
 }
 
@@ -315,7 +343,13 @@ inline const std::vector<Wrong>& wrong_structures() {
        "return triangle_corner(i, 1)", "second corner was its centre"},
       {"sum-of-ends", "a", "bvh_split", "(lo[axis] + hi[axis]) / 2.0", "lo[axis] + hi[axis]",
        "the half is left out"},
-      {"by-turns", "a", "bvh_split", "i < triangles / 2", "i % 2 == 0", "by turns"}};
+      {"by-turns", "a", "bvh_split", "i < triangles / 2", "i % 2 == 0", "by turns"},
+      {"next-wall", "a", "grid_step", "float(cell[a]) * size", "float(cell[a] - 1) * size",
+       "behind the next cell"},
+      {"two-in-stack", "a", "bvh_walk", "int nodes[16];\n  float begins[16];",
+       "int nodes[2];\n  float begins[2];", "room for two nodes"},
+      {"asks-every-box", "a", "bvh_walk", "float t = box_entry(0);",
+       "for (int i = 0; i < 11; ++i) box_entry(i);\n  float t = box_entry(0);", "asked before any leaf"}};
   return all;
 }
 
