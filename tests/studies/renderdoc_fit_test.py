@@ -50,6 +50,19 @@ class Normals(unittest.TestCase):
         self.assertIsNone(normals.find(views, outward, clips, fit.fit_light(views, clips), False))
 
 
+class Warped(unittest.TestCase):
+    def test_a_suns_warped_map_is_told_from_a_lamps(self):
+        sun = parallel(9, 6, 30) @ TO_SUN
+        warp = np.eye(4)
+        warp[3, 1], warp[1, 3] = 0.3, 0.3
+        self.assertTrue(fit.is_warped(warp @ sun))
+        place, plain = fit.light_place(warp @ sun), fit.light_place(sun)
+        self.assertIsNone(place.apex)
+        np.testing.assert_allclose(place.direction, plain.direction, atol=1e-6)
+        for other in (sun, perspective(1.2, 1.2, 1, 40, True) @ TO_SUN):
+            self.assertFalse(fit.is_warped(other))
+
+
 class Vulkan(unittest.TestCase):
     def test_conventions_follow_the_viewport_and_the_depths_range(self):
         told = {(90, False): (False, False, True), (-90, False): (False, True, False), (90, True): (True, True, True), (-90, True): (True, True, False)}

@@ -3,7 +3,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import forms, lookup, moments
+from . import fit, forms, lookup, moments
 
 LARGEST = 0.1  # of stored depths: what a bias of cascades is not larger than
 FEW_OF_A_LAYER = 5e-3  # share of the pixels that tell no constant of a layer's own
@@ -65,6 +65,8 @@ def believe(found, layers, test):
                f"{100 * test.fitted.wrong:.1f} % of the pixels are off by more than {moments.OFF:g}")
     elif any(layer.is_colour and layer.content is None and not (0 <= layer.texels.min() <= layer.texels.max() <= 1) for layer in layers):
         why = "its colours are no depth, distance, power or exponential of these"
+    elif any(fit.is_warped(layer.matrix) for layer in layers):
+        why = "a sun's map that is warped towards the eye, which a capture's matrix cannot say"
     elif test.agreement is not None and test.agreement < UNDERSTOOD:
         why = f"the test as found decides {100 * test.agreement:.1f} % of the pixels within the map as the picture has them"
     if why:

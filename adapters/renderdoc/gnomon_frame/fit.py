@@ -10,6 +10,9 @@ from itertools import permutations, product
 import numpy as np
 
 
+WARPED = 1e-4  # how far a map's x, y and w are from one plane of directions where its light is a sun
+
+
 def homogeneous(points):
     return np.c_[points, np.ones(len(points))]
 
@@ -176,9 +179,23 @@ class LightPlace:
         return float(np.linalg.norm(self.apex - other.apex)) < 1e-3 * (1 + float(np.linalg.norm(self.apex)))
 
 
+def _rays(matrix):
+    """Singular values, and vectors as rows, of what a map's x, y and w change with, each made of length 1."""
+    rows = matrix[[0, 1, 3], :3]
+    return np.linalg.svd(rows / np.maximum(np.linalg.norm(rows, axis=1), 1e-30)[:, None])[1:]
+
+
+def is_warped(matrix):
+    """Whether a sun's map is divided by a number that grows across its rays (light space perspective maps, trapezoids)."""
+    return bool(np.linalg.norm(matrix[3, :3]) * 1e5 >= abs(matrix[3, 3]) and _rays(matrix)[0][2] < WARPED)
+
+
 def light_place(matrix, reversed_depth=False):
     """Where the light of clip_from_view is, and which way it looks: along growing depths, or falling ones where they are reversed."""
     w = matrix[3, :3]
+    if is_warped(matrix):
+        direction = _rays(matrix)[1][2]
+        return LightPlace(direction if (direction @ matrix[2, :3] > 0) != reversed_depth else -direction, None)
     if np.linalg.norm(w) * 1e5 < abs(matrix[3, 3]):
         direction = np.cross(matrix[0, :3], matrix[1, :3])
         direction /= np.linalg.norm(direction)
