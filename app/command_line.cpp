@@ -333,11 +333,14 @@ int parse_and_run(int argc, const char* const* argv, bool runs) {
     print_data(description_of(*program));
     return code_after_stdout(0);
   }
-  if (prints_all_commands(first))
-    for (const Error& missing : describe_others(*program)) {
-      print_error(missing);
-      if (!first.starts_with("--completion")) return static_cast<int>(missing.kind);
+  if (prints_all_commands(first)) {
+    const auto missing = describe_others(*program);
+    if (!missing) return print_failure(missing.error());
+    for (const Error& one : *missing) {
+      print_error(one);
+      if (!first.starts_with("--completion")) return static_cast<int>(one.kind);
     }
+  }
   if (!is_command(*program, first) && !first.starts_with("-"))
     return usage_error(unknown_command_text(*program, first));
   try {

@@ -99,6 +99,10 @@ std::string other_version(std::string_view program, std::string_view version, st
                      where_programs_are);
 }
 
+bool may_be_started(const std::string& path) {
+  return file_kind_or_none(path) == FileKind::file && access(path.c_str(), X_OK) == 0;
+}
+
 /// Why the program cannot be started, as the end of a sentence that begins with its name.
 std::string why_not_started(std::string_view program) {
   const std::string path = program_beside(program);
@@ -108,6 +112,17 @@ std::string why_not_started(std::string_view program) {
   if (access(path.c_str(), X_OK) != 0)
     return fmt::format("and {0} may not be executed; chmod +x {0} lets it", path);
   return fmt::format("and {} is not that program; {}", path, where_programs_are);
+}
+
+/// What the program says of its commands; null where it is not there. Error: it is there, and cannot be asked.
+Expected<Json> description_by(std::string_view program) {
+  const std::string path = program_beside(program);
+  if (!may_be_started(path)) return Json();
+  const auto end = run_and_listen({path, "--describe"});
+  if (!end) return fail(end.error());
+  if (end->code == 0) return Json::parse(end->said, nullptr, false);
+  return fail(ErrorKind::graphics, fmt::format("{} does not say what its commands are (exit code {}); {}", path,
+                                               end->code, where_programs_are));
 }
 
 /// Why what a program says of its commands is of no use; empty where it is.
@@ -160,17 +175,17 @@ std::string description_of(const CLI::App& program) {
   return Json{{"version", compare::program_version()}, {"commands", std::move(commands)}}.dump() + "\n";
 }
 
-std::vector<Error> describe_others(CLI::App& program) {
+Expected<std::vector<Error>> describe_others(CLI::App& program) {
   std::set<std::string_view> others;
   for (const Command& command : all_commands())
     if (!command.add_options) others.insert(command.program);
   std::vector<Error> missing;
   for (const std::string_view other : others) {
-    const auto end = run_and_listen({program_beside(other), "--describe"});
-    const Json described = end && end->code == 0 ? Json::parse(end->said, nullptr, false) : Json();
-    const std::string defect = description_defect(other, described);
+    const auto described = description_by(other);
+    if (!described) return fail(described.error());
+    const std::string defect = description_defect(other, *described);
     if (defect.empty())
-      add_description(program, described.at("commands"));
+      add_description(program, described->at("commands"));
     else
       missing.push_back({ErrorKind::graphics, defect});
   }

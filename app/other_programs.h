@@ -25,7 +25,7 @@ Expected<void> missing_program(const std::string& command);
 std::string description_of(const CLI::App& program);
 
 /// Gives the commands of other programs their options, as those describe them. Returns an error (graphics) for each program that is
-/// not there, or is another.
-std::vector<Error> describe_others(CLI::App& program);
+/// not there, or is another. Error (graphics): one that is there cannot be asked.
+Expected<std::vector<Error>> describe_others(CLI::App& program);
 
 }  // namespace gnomon::app

@@ -52,16 +52,21 @@ TEST_F(ProgramAlone, TakesNothingElseForTheProgram) {
   const auto expect_said = [&](const std::string& end) {
     expect_one_line(run({"judge", "x"}), 5, line + path + end);
     expect_one_line(run({"help", "judge"}), 5, line + path + end);
-    EXPECT_EQ(run({"--completion", "bash"}).exit_code, 0);
   };
   fs::create_directory(path);
   expect_said(" is no file; Gnomon's package, or ./gnomon build in its sources, brings all its programs");
+  EXPECT_EQ(run({"--completion", "bash"}).exit_code, 0);
   fs::remove(path);
   write_text(path, "not a program");
   expect_one_line(run({"judge", "x"}), 5,
                   line + path + " may not be executed; chmod +x " + path + " lets it");
   fs::permissions(path, fs::perms::owner_all);
   expect_said(" is not that program; Gnomon's package, or");
+  // One that is there and fails may do so for want of something: what it has is not left out in silence.
+  for (const char* program : {"not a program", "#!/bin/sh\nexit 5\n"}) {
+    write_text(path, program);
+    expect_one_line(run({"--completion", "bash"}), 5, path);
+  }
 }
 
 // Programs that start each other would do so for ever: a link to gnomon in the place of another program, or a script that calls it.
