@@ -7,11 +7,13 @@ import argparse
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import time
 
 LONGEST_S = 600  # from the program's start to the frame
+LOOKED_S = 0.3  # between two looks for programs that are new
 SAID_S = 30  # after so long without a frame it is said what is waited for
 TO_END_S = 5  # in which a program may end by itself when it is told to
 
@@ -24,17 +26,18 @@ def record(program, words, number, path):
     import renderdoc as rd
 
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
-    options = rd.GetDefaultCaptureOptions()
-    options.refAllResources = False
     for caught in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(caught, lambda number, _: sys.exit(128 + number))
     controls = []
     try:
         with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(path))) as folder:
-            started = rd.ExecuteAndInject(os.path.abspath(found), os.getcwd(), _as_one(words), [], os.path.join(folder, "frame"), options, False)
-            if started.result != rd.ResultCode.Succeeded:
-                raise SystemExit(f"record: {program} cannot be started: {started.result.Message()}")
-            shutil.move(_wait(rd, controls, started.ident, number, time.monotonic() + LONGEST_S), path)
+            # Not by RenderDoc's own ExecuteAndInject, which has a second's patience with a program that loads for long.
+            # What is named RENDERDOC_ORIGPRELOAD the library leaves to what the program starts, of which a script may be the beginning.
+            library = _library()
+            prepared = {**os.environ, "LD_PRELOAD": library, "RENDERDOC_ORIGPRELOAD": library, "RENDERDOC_CAPFILE": os.path.join(folder, "frame"),
+                        "ENABLE_VULKAN_RENDERDOC_CAPTURE": "1"}
+            started = subprocess.Popen([os.path.abspath(found), *words], env=prepared)
+            shutil.move(_wait(rd, controls, started, number, time.monotonic() + LONGEST_S), path)
     finally:
         for control in controls:
             control.Shutdown()
@@ -42,9 +45,23 @@ def record(program, words, number, path):
         rd.ShutdownReplay()
 
 
-def _as_one(words):
-    """RenderDoc takes words as one text, which it splits at spaces that do not stand between quotes."""
-    return " ".join('"' + word.replace("\\", "\\\\").replace('"', '\\"') + '"' if not word or any(c in word for c in " \t\"'\\") else word for word in words)
+def _library():
+    """RenderDoc's library, which its module for Python has loaded."""
+    with open("/proc/self/maps", encoding="utf-8") as file:
+        return next(line.split()[-1] for line in file if "librenderdoc" in line)
+
+
+def _open_new(rd, controls, opened):
+    """Opens what has RenderDoc in it and was started by this process since; what others started is let alone. `opened`: numbers that were looked at."""
+    ident = rd.EnumerateRemoteTargets("", 0)
+    while ident:
+        if ident not in opened and (control := rd.CreateTargetControl("", ident, "gnomon", False)) is not None:
+            opened.add(ident)
+            if control.GetPID() in _descendants():
+                controls.append(control)
+            else:
+                control.Shutdown()
+        ident = rd.EnumerateRemoteTargets("", ident)
 
 
 def _descendants():
@@ -88,37 +105,39 @@ def _numbers(number):
     return numbers
 
 
-def _wait(rd, controls, ident, number, until):
-    """The file of the frame, once it is recorded. `controls`: what is opened to speak with the program."""
-    presents, begun = False, time.monotonic()
-    said = begun + SAID_S
-    while time.monotonic() < until:
-        if not controls and (control := rd.CreateTargetControl("", ident, "gnomon", True)) is not None:
-            controls.append(control)
-        for control in controls:
+def _wait(rd, controls, started, number, until):
+    """The file of the frame, once it is recorded. `controls`: what is opened to speak with the program and what it starts."""
+    opened, presents, begun = set(), False, time.monotonic()
+    said, looked = begun + SAID_S, begun
+    while (now := time.monotonic()) < until:
+        if now >= looked:
+            _open_new(rd, controls, opened)
+            looked = time.monotonic() + LOOKED_S
+        for control in list(controls):
             message = control.ReceiveMessage(None)
-            if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting and not presents:
+            if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting:
                 if not message.apiUse.supported:
                     raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {message.apiUse.supportMessage}")
+                if not presents:
+                    _queue(control, number)
                 presents = True
-                _queue(control, number)
             elif message.type == rd.TargetControlMessageType.NewCapture:
                 taken = message.newCapture.frameNumber
                 if taken > number:
                     print(f"record: frame {taken}, for the program had drawn frame {number} before it could be recorded", file=sys.stderr)
                 return message.newCapture.path
             elif message.type == rd.TargetControlMessageType.Disconnected:
-                raise SystemExit("record: the program has ended before the frame was drawn" + ("" if presents else ", and presented nothing. Of a script that "
-                                 "starts a program, name the program itself"))
-        if time.monotonic() > said:
+                control.Shutdown()
+                controls.remove(control)
+        if started.poll() is not None and not _descendants():
+            raise SystemExit("record: the program has ended before the frame was drawn" + ("" if presents else ", and presented nothing"))
+        if now > said:
             said += SAID_S
             waited = f"frame {number}" if presents else "the program to present a picture"
-            print(f"record: waiting for {waited} ({time.monotonic() - begun:.0f} s)", file=sys.stderr)
-        if not _descendants():
-            raise SystemExit("record: the program has ended before the frame was drawn")
+            print(f"record: waiting for {waited} ({now - begun:.0f} s)", file=sys.stderr)
         time.sleep(0.02)
     raise SystemExit(f"record: no frame within {LONGEST_S} s" + ("" if presents else ": the program presents nothing that RenderDoc sees (a core profile of "
-                                                                 "OpenGL, Vulkan or Direct3D; not a script that starts another program)"))
+                                                                 "OpenGL, Vulkan or Direct3D)"))
 
 
 def _queue(control, number):

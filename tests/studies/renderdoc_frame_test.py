@@ -483,9 +483,6 @@ class Recorder(unittest.TestCase):
             self.assertIn(said, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
 
-    def test_words_with_spaces_stay_one(self):
-        self.assertEqual(self.recorder()._as_one(["-a", "two words", 'say "x"', ""]), '-a "two words" "say \\"x\\"" ""')
-
     def test_ends_what_it_started_and_what_that_started(self):
         record = self.recorder()
         record.TO_END_S = 0.3

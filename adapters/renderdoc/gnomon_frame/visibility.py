@@ -192,6 +192,9 @@ def work_out(drawn, empty, full, encoded):
     light = (lit - dark).sum(-1)
     changed = light > DIM * light.max()
     bright = np.percentile(light[changed], 99) if changed.any() else 0.0
+    if max(float(lit.max(initial=0)), float(drawn.colour.max(initial=0))) <= 0:
+        raise FrameError("the picture comes back black from the replay, as of windows whose pixels have several samples and no alpha: record a window without "
+                         "MSAA, or look where there is light")
     if bright <= 0:
         raise FrameError("the picture is the same with the map empty and full: nothing that is seen in this frame reads it")
     asked = light > DIM * bright
