@@ -33,8 +33,8 @@ JUDGED = {
     "same512": ({"constant_depth": 0.002}, 2), "pancake": ({"constant_depth": 0.002}, 2), "taa": ({"constant_depth": 0.002}, 1),
     "vsm": (None, 1), "evsm": (None, 1), "cascades": ({"constant_depth": 0.002}, 1), "castnormal": ({"constant_depth": 0.002}, 3),
     "omni": ({"constant_depth": 0.002}, 5), "layered": ({"constant_depth": 0.002}, 5)}
-# VTK reads its exponential map otherwise than its formula: where its shadow is wrong is judged all the same.
-UNREAD = {"vtk": "no constants of that give the picture"}
+# VTK looks its exponential map up with the map's aspect, and draws it with the window's: where its shadow is wrong is judged all the same.
+UNREAD = {"vtk": "widens x by 1.778"}
 # Name: what the refusal says.
 REFUSED = {"staticbig": "of an earlier frame"}
 # Name: what a note says of what was left out.

@@ -53,7 +53,7 @@ MATRIX = light_matrix() @ shifted(0, 0, 6)
 
 
 def layer(texels=TEXELS, **more):
-    kept = {"matrix": MATRIX, "texels": texels, "read": texels, "half": None, "content": None, "place": SUN, "constant": 0.0, "is_blurred": False, "averages": {}}
+    kept = {"matrix": MATRIX, "texels": texels, "read": texels, "half": None, "content": None, "place": SUN, "constant": 0.0, "is_blurred": False, "averages": {}, "reader": None}
     return SimpleNamespace(state=pipeline(), **{**kept, **more})
 
 
@@ -291,6 +291,18 @@ class Moments(unittest.TestCase):
             one = layer(is_colour=False)
             decision.believe(SimpleNamespace(), [one], decision.Test(lookup.Selection("first", (), 0.0), agreement, 0.0, None, None))
             self.assertEqual(one.matrix is not None, kept)
+
+    def test_a_reader_of_another_aspect_is_said(self):
+        casters = MATRIX
+        places = reader.texture_places(0, 512, 512), reader.texture_places(0, 512, 512)
+        for wide, said in ((1.0, False), (16 / 9, True)):
+            constant = BIAS @ np.diag([wide, 1, 1, 1]) @ casters
+            found = reader.find_reader([("m", constant)], casters, casters[2], (), places)
+            np.testing.assert_allclose(found.stretch, (wide, 1.0))
+            one = layer(is_colour=False, reader=found)
+            test = decision.Test(lookup.Selection("first", (), 0.0), 0.8, 0.0, None, None)
+            decision.believe(SimpleNamespace(), [one], test)
+            self.assertEqual("widens x by 1.778" in test.unread, said)
 
     def test_are_said_in_a_captures_words(self):
         fitted = moments.Fit(moments.Content(kind="evsm", exponents=(5.0,)), 1e-3, 0.2)

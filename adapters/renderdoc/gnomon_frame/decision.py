@@ -11,6 +11,7 @@ PARTLY = 2e-3  # share of partly lit pixels, below which there is no filter
 SURELY = 0.9  # correlation of partly lit pixels with an average of comparisons from which on that is the filter
 UNKNOWN = 5e-3  # by so much more the picture must speak for numbers that the frame has not
 ALIKE = 3e-4  # correlations of forms with the picture that differ by less tell none of them
+STRETCHED = 1e-3  # of a map's width and height: what a reader widens them by is said
 UNDERSTOOD = 0.95  # share of the pixels that a test must decide as the picture has them, else it is another test
 
 
@@ -69,6 +70,10 @@ def believe(found, layers, test):
         why = "a sun's map that is warped towards the eye, which a capture's matrix cannot say"
     elif test.agreement is not None and test.agreement < UNDERSTOOD:
         why = f"the test as found decides {100 * test.agreement:.1f} % of the pixels within the map as the picture has them"
+    stretch = layers[0].reader.stretch if why and layers[0].reader else (1.0, 1.0)
+    if max(abs(one - 1) for one in stretch) > STRETCHED:
+        why += (f". Its reader widens x by {stretch[0]:.4g} and y by {stretch[1]:.4g} against the matrix that the casters were drawn with: two aspects, of the map "
+                "and of the window, perhaps")
     if why:
         for layer in layers:
             layer.matrix = None

@@ -21,6 +21,7 @@ class ReaderMatrix:
     before: str  # the constant that takes view space to the matrix's own, or "view space"
     residual: float  # largest relative difference of its rows and the casters'
     has_depth: bool  # whether its z row is that of the casters; else theirs stands in for it
+    stretch: tuple = (1.0, 1.0)  # by how much it widens the casters' x and y beyond any usual place in the texture
 
 
 def is_rigid(m):
@@ -87,8 +88,18 @@ def _lies_there(t, casters, places):
     return True
 
 
+def _stretch(t, casters, places):
+    """By how much x and y are wider than the nearest of `places` makes them."""
+    out = []
+    for r in (0, 1):
+        scale, shift = np.linalg.lstsq(np.array([casters[r], t[3]]).T, t[r], rcond=None)[0]
+        off = lambda place: (abs(shift - place[1]) > ENOUGH, abs(np.log(max(abs(scale / place[0]), 1e-30))))
+        out.append(float(abs(scale / min(places[r], key=off)[0])))
+    return tuple(out)
+
+
 def _match(candidates, ways, casters, stored_row, places):
-    """The best of one constant after every way: (rank, way's name, matrix scaled as the casters'); a rank is (whether its depths are the
+    """The best of one constant after every way: (rank, way's name, matrix scaled as the casters', stretch); a rank is (whether its depths are the
     casters', whether it leads to their place in the texture, less the residual)."""
     w = casters[3]
     perspective = np.linalg.norm(w[:3]) > 1e-5 * abs(w[3])
@@ -114,7 +125,8 @@ def _match(candidates, ways, casters, stored_row, places):
         depth, has_depth = _depth_row(t[k], stored_row)
         rank = has_depth, not places or _lies_there(t[k], casters, places), -float(off[k])
         if best is None or rank > best[0]:
-            best = rank, kept[k][0], np.array([casters[0], casters[1], depth, t[k, 3]])
+            stretch = _stretch(t[k], casters, places) if places else (1.0, 1.0)
+            best = rank, kept[k][0], np.array([casters[0], casters[1], depth, t[k, 3]]), stretch
     return best
 
 
@@ -139,7 +151,7 @@ def find_reader(matrices, casters, stored_row, more_ways=(), places=()):
             continue
         found = _match(m @ turns, ways, casters, stored_row, places)
         if found and (best is None or found[0] > best[0]):
-            best = found[0], ReaderMatrix(found[2], name, found[1], -found[0][2], found[0][0])
+            best = found[0], ReaderMatrix(found[2], name, found[1], -found[0][2], found[0][0], found[3])
     return best and best[1]
 
 
