@@ -193,6 +193,8 @@ against every triangle (\`adapters/second_truth.mjs\` lists them). A difference 
 
 - Cycles is right about the place that it found (its position pass).
 - The edge of the shadow is nearer to the receiver, in its plane, than one step of those floats.
+
+${readFileSync(new URL("programs/page.md", import.meta.url), "utf8").trimEnd()}
 `);
 }
 

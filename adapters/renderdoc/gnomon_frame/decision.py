@@ -272,7 +272,7 @@ def find_test(found, layers, pixels, numbers, exponent, fitted=None):
             found.notes.append("the picture's numbers are read as linear ones, not as sRGB: partly lit pixels are averages of comparisons then")
         for layer in layers:
             layer.constant = form.constant
-        radius = radius if partly > PARTLY else None
+        radius = radius if partly > PARTLY or bilinear else None  # a sampler that weighs comparisons says so itself
     elif partly > PARTLY:
         each = np.array([layer.constant for layer in layers])[looked_up.index]
         reach = looked_up.of(unsure).filter_radius(places.at[unsure], each[unsure])
