@@ -113,8 +113,8 @@ async function prepare(canvas, task) {
 /** A page that draws the scene in each animation frame. */
 export async function show(canvas, task) {
   const { width, height, lights, instance, tools } = await prepare(canvas, task);
-  await exposed(lights, instance, () => draw(tools, width, height));
   lights.setShadowCaster(instance, true);
+  await exposed(lights, instance, () => draw(tools, width, height));
   const next = () => {
     tools.renderer.render(tools.swapChain, tools.view);
     tools.engine.execute();

@@ -155,6 +155,14 @@ class Lookup(unittest.TestCase):
         texels[1, 5] = True
         self.assertEqual(np.argwhere(lookup.widened(texels, 2)).tolist(), [[r, c] for r in range(4) for c in range(3, 7)])
 
+    def test_a_light_of_next_to_no_pixel_is_not_judged(self):
+        drawn, asked = np.ones((100, 100), bool), np.zeros((100, 100), bool)
+        asked[0, :19] = True
+        with self.assertRaisesRegex(FrameError, "tells the light of 19 of 10000 pixels alone"):
+            pixels.refuse_few(pixels.Pixels(None, drawn, None, asked))
+        asked[0, :20] = True
+        pixels.refuse_few(pixels.Pixels(None, drawn, None, asked))
+
     def test_a_slope_of_a_paraboloid_is_said_to_be_left_out(self):
         texture = SimpleNamespace(is_depth=True, format="D24", width=64, height=64)
         for slope, said in ((0.0, False), (2.0, True)):

@@ -9,6 +9,7 @@ from .errors import FrameError
 
 MOST_SLICES = 16  # of a map that are looked at
 RANGES = 1e-3  # of a range: layers whose ends differ by less have one
+FEWEST = 2e-3  # share of the drawn pixels
 MOST = 0.5  # share of the pixels within the map: where so many are not told nothing is
 
 
@@ -112,7 +113,16 @@ def measure(frame, found, layers, encoding, others, numbers):
                            f"distance, or a strength of {1 - seen.darkest:.2f}; it is taken out")
     if fitted:
         _light_of_moments(layers, pixels, fitted)
+    refuse_few(pixels)
     return pixels, exponent, fitted
+
+
+def refuse_few(pixels):
+    """A FrameError where the replays tell the light of next to no pixel."""
+    told, drawn = int(pixels.asked.sum()), int(pixels.drawn.sum())
+    if told < FEWEST * drawn:
+        raise FrameError(f"the map, empty and full, tells the light of {told} of {drawn} pixels alone: what reads it does more than compare depths, such "
+                         "as contact hardening (PCSS), or this light reaches nothing that is seen. Record a frame with another filter")
 
 
 def is_same_picture(found, pixels, other, others):

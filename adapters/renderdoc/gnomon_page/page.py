@@ -191,6 +191,12 @@ class Page:
             self._ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="none" if kind == "mouseMoved" else "left", clickCount=int(kind != "mouseMoved"))
         return "in the page's middle" if words is None else f'the page\'s button "{words}"'
 
+    def rest(self, seconds):
+        """Lets the page draw on."""
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            self._tools.listen(until - time.monotonic())
+
     def listen(self, longest_s):
         self._tools.listen(longest_s)
 

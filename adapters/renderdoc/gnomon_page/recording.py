@@ -19,6 +19,7 @@ FRAME_S = 20  # in which one that was stopped presents the frame
 QUIET_S = 0.4  # in which what was drawn before is presented
 SHOWN_S = 2  # in which something small is
 TRIES = 8
+SETTLE_S = 2  # in which a page that has begun to draw shows the rest
 PATIENCE_S = 10  # for what a page does by itself
 TAKES = 3  # frames of one kind that are looked at
 REPLAY_S = 300
@@ -126,7 +127,8 @@ class Recording:
         """The first frame with shadows, or one whose map cannot be read; a PageError where there is neither."""
         if not self._await_drawing(PATIENCE_S):
             self._tell(f"clicking {self._page.click()}, for {self._why}")
-        self._await_drawing(math.inf)
+        if self._await_drawing(math.inf):
+            self._page.rest(SETTLE_S)
         while not self._is_late():
             for stops in (lambda: self._page.arm(STOP_S), self._on_demand, self._from_the_start):
                 path = self._takes(stops) or self._unread
