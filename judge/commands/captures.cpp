@@ -12,17 +12,18 @@
 #include "app/process/interrupt.h"
 #include "judge/recorded_frame.h"
 #include "scene/files/path_status.h"
+#include "scene/files/read_file.h"
 #include "scene/files/staged_folder.h"
+#include "scene/files/write_file.h"
 
 namespace gnomon::app {
 namespace {
 
 /// A page's frame belongs to its capture.
 Expected<void> keep_frame(const std::string& frame, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::copy_file(frame, folder + "/frame.rdc", error);
-  if (error) return fail(ErrorKind::cannot_write, folder + "/frame.rdc: " + error.message());
-  return {};
+  const auto bytes = read_file(frame);
+  if (!bytes) return fail(bytes.error());
+  return write_file_in(folder, "frame.rdc", *bytes);
 }
 
 /// Makes a capture of a recorded frame in `folder` and puts its capture.json in the frame's place.

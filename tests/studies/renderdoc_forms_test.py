@@ -316,6 +316,10 @@ class Moments(unittest.TestCase):
 
 
 class Literals(unittest.TestCase):
+    def test_a_shader_that_writes_srgb_is_known_by_the_curves_numbers(self):
+        for code, encodes in (("c = pow(c, vec3(0.41666)) * 1.055 - 0.055;", True), ("c = pow(c, vec3(1.0 / 2.2));", True), ("c *= 0.5;", False), ("", None)):
+            self.assertIs(literals.of_code(code).encodes, encodes)
+
     def test_numbers_of_a_text_are_those_that_it_uses(self):
         text = """#version 450
 #define SCALE 0.2

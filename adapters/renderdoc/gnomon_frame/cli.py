@@ -23,8 +23,8 @@ def arguments(words):
     parser.add_argument("--list", action="store_true", help="list the lights with a shadow map, and stop")
     parser.add_argument("--name", default="", help="the renderer's name, for the report [default: the frame's name]")
     parser.add_argument("--encoding", choices=("auto", "srgb", "linear"), default="auto",
-                        help="of 8-bit pictures that do not say; matters to partly lit pixels alone [default auto: srgb, unless an "
-                             "exponential map fits better without]")
+                        help="of 8-bit pictures that do not say; matters to partly lit pixels alone [default auto: srgb, unless the "
+                             "reader has none of that curve's numbers, or an exponential map or a filter fits better without]")
     given = parser.parse_args(words)
     if not given.list and not given.output:
         parser.error("-o DIR is needed (or --list)")

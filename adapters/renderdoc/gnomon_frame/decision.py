@@ -269,7 +269,8 @@ def find_test(found, layers, pixels, numbers, exponent, fitted=None):
     if alike:
         form, radius = _by_filter(looked_up, alike, places.at, places.normals, pixels, unsure, bilinear)
         if pixels.is_read_otherwise:
-            found.notes.append("the picture's numbers are read as linear ones, not as sRGB: partly lit pixels are averages of comparisons then")
+            read = ("sRGB", "linear ones") if numbers.encodes is False else ("linear ones", "sRGB")
+            found.notes.append(f"the picture's numbers are read as {read[0]}, not as {read[1]}: partly lit pixels are averages of comparisons then")
         for layer in layers:
             layer.constant = form.constant
         radius = radius if partly > PARTLY or bilinear else None  # a sampler that weighs comparisons says so itself

@@ -9,6 +9,9 @@ from . import spirv
 _NUMBER = r"(?:\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?)[fF]?"
 
 
+OF_SRGB = (0.0031308, 12.92, 1.055, 0.41666, 2.2, 1 / 2.2)  # numbers of its curve
+
+
 @dataclass(frozen=True)
 class Numbers:
     """What a reader works with: constants that it is given, numbers of its text that stand alone, and such that something is multiplied by."""
@@ -18,6 +21,12 @@ class Numbers:
     factors: tuple = ()
     has_tangent: bool = False  # whether it asks for one
     vectors: tuple = ()  # of the constants that it is given, those that are several numbers
+
+    @property
+    def encodes(self):
+        """Whether the shader writes sRGB or a power like it; None where its numbers are not told."""
+        own = {*self.alone, *self.factors}
+        return any(abs(n - of) < 2e-4 * of for n in own for of in OF_SRGB) if own else None
 
     @property
     def all(self):

@@ -63,7 +63,8 @@ def flip(picture, view):
 
 def measure(frame, found, layers, encoding, others, numbers):
     """(pixels of one light, the exponential map's factor or None, a map of moments' Fit or None): three replays. `numbers`: the reader's. `others`: layers of other lights. `encoding`: "srgb",
-    "linear", or "auto", which takes 8-bit pictures for sRGB unless an exponential map fits better without."""
+    "linear", or "auto", which takes 8-bit pictures for sRGB unless the reader has none of that curve's numbers, or an exponential map or a
+    filter fits better without."""
     drawn = visibility.take_pictures(frame, found.passes, sorted({layer.state.slice for layer in layers}))
     for layer in layers:
         layer.texels, layer.read = (_cut(layer, maps[layer.state.slice]) for maps in (drawn.maps, drawn.read))
@@ -81,12 +82,15 @@ def measure(frame, found, layers, encoding, others, numbers):
                               for name, one in (("drawn", drawn), ("empty", empty), ("full", full))}
     unsaid = visibility.does_not_say(frame, found.passes)
     tried = []
-    for encoded in ([False] if not unsaid or encoding == "linear" else [True] if encoding == "srgb" else [True, False]):
+    for encoded in ([False] if not unsaid or encoding == "linear" else [True] if encoding == "srgb" else
+                    [False, True] if numbers.encodes is False else [True, False]):
         seen = visibility.work_out(drawn, empty, full, encoded)
         pixels = Pixels(positions, is_drawn, flip(seen.values, found.view).copy(), flip(seen.asked, found.view) & is_drawn, flip(seen.asked, found.view),
                         drawn.depth)
         tried.append((seen, pixels, _exponent(layers, pixels), _moments(layers, pixels, numbers.all)))
     seen, pixels, exponent, fitted = max(tried, key=lambda one: (-one[3].off if one[3] else -1, one[2].correlation if one[2] else 0))
+    if len(tried) > 1 and numbers.encodes is False:
+        found.notes.append("the picture's numbers are linear ones: the shader that writes them has none of sRGB's")
     if len(tried) > 1:
         pixels.otherwise = next(one[1].visibility for one in tried if one[1] is not pixels)
     for layer in layers:
