@@ -300,14 +300,6 @@ std::vector<Question> box_questions() {
     });
   };
   pairs("front", 1.0, 3.0);
-  // Through a corner and past it: the way inside is short, and which slab is left first matters.
-  for (int i = 0; i < of_each; ++i) {
-    const Aabb box = some_box(dice, 1.0);
-    for (const double inset : {0.03, -0.03}) {
-      const Vec3 edge(box.max.x - inset, box.max.y - inset, box.center().z);
-      add_box(q, ray_to(edge, glm::normalize(Vec3(1.0, -1.0, 0.1 * (i - 2.5))), 3.0), box);
-    }
-  }
   pairs("length", 1.0, 3.0, 2.5);
   q.group("inside", of_each, [&](int) {
     const Aabb box = some_box(dice, 1.0);
@@ -321,6 +313,14 @@ std::vector<Question> box_questions() {
   });
   add_axes(q, dice, "axes", 0.5);
   add_axes(q, dice, "faces", 1.0);
+  // Through a corner and past it: the way inside is short, and which slab is left first matters.
+  for (int i = 0; i < of_each; ++i) {
+    const Aabb box = some_box(dice, 1.0);
+    for (const double inset : {0.03, -0.03}) {
+      const Vec3 edge(box.max.x - inset, box.max.y - inset, box.center().z);
+      add_box(q, ray_to(edge, glm::normalize(Vec3(1.0, -1.0, 0.1 * (i - 2.5))), 3.0), box);
+    }
+  }
   pairs("tiny", 0.01, 50.0);
   pairs("far", 10.0, 40.0);
   add_picture(q, [&](const Vec3& eye, const Vec3& to) {

@@ -78,8 +78,12 @@ std::vector<Run> other_checks(const Rubric& rubric, const Run& known) {
 struct Explanation {
   std::uint64_t wrong = 0, explained = 0;     ///< numbers of answers
   std::uint64_t would_be = 0, confirmed = 0;  ///< that the mistake makes wrong, and that are wrong like this
-  /// It explains most of what is wrong, and most of what it would make wrong is so.
-  bool holds() const { return 2 * explained >= wrong && 3 * confirmed >= 2 * would_be; }
+  bool is_contradicted = false;               ///< a check is all right where the mistake would show
+  /// It explains most of what is wrong, and what it would make wrong is mostly so.
+  bool holds() const {
+    if (2 * explained < wrong) return false;
+    return 5 * confirmed >= 4 * would_be || (!is_contradicted && 2 * confirmed >= would_be);
+  }
 };
 
 /// Tenths of points, fewer than all of them.
@@ -192,6 +196,7 @@ class Grader {
       if (!values) return fail(values.error());
       const auto agreement = class_.mistakes.agreement(mistake, run, *values, **right);
       if (!agreement) return fail(agreement.error());
+      sum.is_contradicted = sum.is_contradicted || (agreement->wrong == 0 && agreement->other_wrong > 0);
       sum.wrong += agreement->wrong, sum.explained += agreement->explained;
       sum.would_be += agreement->other_wrong, sum.confirmed += agreement->explained;
       if (2 * agreement->explained >= agreement->wrong) continue;

@@ -197,7 +197,7 @@ std::vector<CommonLoss> common_losses(const ClassResult& result) {
 
 std::string loss_words(const ClassResult& result, const CommonLoss& loss) {
   return fmt::format("{} of {}{}: {}", loss.students.size(), result.students.size(),
-                     loss.is_mistake ? "" : " without points of", one_line(loss.words));
+                     loss.is_mistake ? "" : " without all points of", one_line(loss.words));
 }
 
 namespace {

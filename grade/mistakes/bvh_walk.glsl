@@ -36,17 +36,19 @@
 // mistake 34: a leaf that is missed was hit at -1
 // mistake 35: the stack had room for one node
 // mistake 36: the farther child was forgotten, and the only one that is met
+// mistake 37: every box was met, and none asked but the root's (all leaves are asked)
+// mistake 38: a box that is missed was met, at -1
 float box_entry(int node);
 int left_child(int node);
 int right_child(int node);
 float hit_in_leaf(int node);
 
 bool is_met(float entry) {
-  return MISTAKE == 7 || MISTAKE == 24 || (MISTAKE == 15 || MISTAKE == 26 ? entry > 0.0 : entry >= 0.0);
+  return MISTAKE == 38 || MISTAKE == 7 || MISTAKE == 37 || MISTAKE == 24 || (MISTAKE == 15 || MISTAKE == 26 ? entry > 0.0 : entry >= 0.0);
 }
 
 bool is_cut(float entry, float nearest) {
-  if (MISTAKE == 2 || MISTAKE == 7 || MISTAKE == 24 || nearest < 0.0) return MISTAKE == 34 && nearest < 0.0;
+  if (MISTAKE == 2 || MISTAKE == 37 || MISTAKE == 7 || MISTAKE == 24 || nearest < 0.0) return MISTAKE == 34 && nearest < 0.0;
   return MISTAKE == 21 ? entry < nearest : entry > nearest;
 }
 
@@ -94,7 +96,7 @@ float bvh_walk() {
   int stack[room], first = 0, size = 0;
   float entries[room], none = MISTAKE == 14 ? 0.0 : MISTAKE == 25 ? 1e30 : -1.0, nearest = MISTAKE == 34 ? 1e30 : -1.0;
   float root = box_entry(0);
-  if (MISTAKE == 15 ? root <= 0.0 : root < 0.0 && MISTAKE != 18 && MISTAKE != 24) return none;
+  if (MISTAKE == 15 ? root <= 0.0 : root < 0.0 && MISTAKE != 38 && MISTAKE != 18 && MISTAKE != 24) return none;
   if (MISTAKE == 11 && left_child(0) < 0) return none;
   stack[0] = 0, entries[0] = root, size = 1;
   while (size > first) {
@@ -111,10 +113,10 @@ float bvh_walk() {
       if (MISTAKE == 19 || MISTAKE == 1 && t >= 0.0 || MISTAKE == 20 && t < 0.0) break;
       continue;
     }
-    float a = box_entry(left), b = MISTAKE == 4 ? -1.0 : box_entry(right);
+    float a = MISTAKE == 37 ? 0.0 : box_entry(left), b = MISTAKE == 37 ? 0.0 : MISTAKE == 4 ? -1.0 : box_entry(right);
     bool meets_a = is_met(a) && !is_cut(a, nearest), meets_b = is_met(b) && !is_cut(b, nearest) && MISTAKE != 4;
     if (MISTAKE == 22 && !(meets_a && meets_b)) continue;
-    bool exchange = meets_a && meets_b && (MISTAKE == 6 ? b >= a : b < a);
+    bool exchange = MISTAKE == 38 ? b <= a : meets_a && meets_b && (MISTAKE == 6 ? b >= a : b < a);
     if (MISTAKE == 5 || MISTAKE == 23) exchange = MISTAKE == 23;
     if (exchange) {
       int node_a = left;

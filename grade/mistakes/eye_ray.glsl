@@ -46,6 +46,7 @@
 // mistake 44: the direction had nothing forward
 // mistake 45: the camera's axes right and up were exchanged before the aspect
 // mistake 46: the direction had length 1 in the picture alone (it is divided by the root of 3)
+// mistake 47: the arc tangent was taken for the tangent
 vec3 eye_ray(vec2 pixel, vec2 size, float degrees, vec3 right, vec3 up, vec3 forward) {
   if (MISTAKE == 34) pixel = pixel.yx;
   vec2 middle = pixel + (MISTAKE == 1 || MISTAKE == 13 ? 0.0 : MISTAKE == 18 ? 1.0 : MISTAKE == 21 ? 0.25 : MISTAKE == 41 ? -0.5 : 0.5);
@@ -60,7 +61,7 @@ vec3 eye_ray(vec2 pixel, vec2 size, float degrees, vec3 right, vec3 up, vec3 for
   if (MISTAKE == 10 || MISTAKE == 30) place.x = -place.x;
   float angle = (MISTAKE == 7 ? 1.0 : 0.5) * (MISTAKE == 6 || MISTAKE == 17 ? degrees : MISTAKE == 40 ? degrees / 180.0 : radians(degrees));
   if (MISTAKE == 22) angle *= 0.5;
-  float high = MISTAKE == 16 ? 1.0 : MISTAKE == 8 ? angle : MISTAKE == 29 ? sin(angle) : MISTAKE == 43 ? cos(angle) : MISTAKE == 31 ? 0.5 * tan(2.0 * angle) : MISTAKE == 36 ? 1.0 / tan(angle) : tan(angle), aspect = size.x / size.y;
+  float high = MISTAKE == 16 ? 1.0 : MISTAKE == 8 ? angle : MISTAKE == 29 ? sin(angle) : MISTAKE == 43 ? cos(angle) : MISTAKE == 47 ? atan(angle) : MISTAKE == 31 ? 0.5 * tan(2.0 * angle) : MISTAKE == 36 ? 1.0 / tan(angle) : tan(angle), aspect = size.x / size.y;
   if (MISTAKE == 3) aspect = 1.0 / aspect;
   if (MISTAKE == 23) aspect *= aspect;
   if (MISTAKE == 24) aspect = floor(aspect);

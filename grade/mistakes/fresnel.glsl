@@ -37,6 +37,7 @@
 // mistake 35: the second amplitude came in once, the first twice
 // mistake 36: n2 alone stood in the second polarisation
 // mistake 37: the amplitudes were added (they are not squared, and may cancel)
+// mistake 38: the root of the mean was the answer
 float fresnel(float cosine, float n1, float n2) {
   if (MISTAKE == 2) { float n = n1; n1 = n2; n2 = n; }
   float c1 = MISTAKE == 12 ? 1.0 : cosine, eta = n1 / n2;
@@ -77,6 +78,7 @@ float fresnel(float cosine, float n1, float n2) {
   if (MISTAKE == 6) return a * a + b * b;
   if (MISTAKE == 7) return 1.0 - 0.5 * (a * a + b * b);
   if (MISTAKE == 26) return 0.25 * (abs(a) + abs(b)) * (abs(a) + abs(b));
+  if (MISTAKE == 38) return sqrt(0.5 * (a * a + b * b));
   if (MISTAKE == 27) return 0.25 * (a * a + b * b);
   if (MISTAKE == 35) return 0.5 * (a * a + a * b);
   if (MISTAKE == 37) return 0.5 * (a + b);

@@ -52,6 +52,8 @@
 // mistake 50: v was computed with the other edge (both are from a to b)
 // mistake 51: the answer was v
 // mistake 52: a parallel ray met the triangle (no test for 0, and what is no number is the answer)
+// mistake 53: the normal had length 1 above, but not below the line of t
+// mistake 54: t was computed with the other edge
 // The two-step way: the place in the plane, then on which side of each edge it lies.
 // By areas: inside they sum to the whole.
 float area(vec3 a, vec3 b, vec3 c) { return 0.5 * length(cross(b - a, c - a)); }
@@ -64,6 +66,7 @@ float by_edges(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
   float slant = dot(n, direction);
   if (slant == 0.0) return -1.0;
   float t = dot(n, MISTAKE == 31 ? a : a - origin) / slant;
+  if (MISTAKE == 53) t /= length(normal);
   if (MISTAKE == 36) t = abs(t);
   if (t < 0.0) return -1.0;
   vec3 place = origin + t * direction;
@@ -83,7 +86,7 @@ float ray_triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
   vec3 d = MISTAKE == 13 ? normalize(direction) : direction;
   vec3 to_b = MISTAKE == 18 ? b : b - a, to_c = MISTAKE == 18 ? c : MISTAKE == 37 ? c - b : c - a, from_a = MISTAKE == 38 ? a - origin : MISTAKE == 17 ? origin : origin - a;
   float none = MISTAKE == 22 ? 0.0 : MISTAKE == 34 ? 1e30 : -1.0;
-#if MISTAKE >= 25 && MISTAKE <= 32 || MISTAKE == 35 || MISTAKE == 36 || MISTAKE >= 40 && MISTAKE <= 47
+#if MISTAKE >= 25 && MISTAKE <= 32 || MISTAKE == 35 || MISTAKE == 36 || MISTAKE >= 40 && MISTAKE <= 47 || MISTAKE == 53
   return by_edges(origin, direction, a, b, c);
 #endif
   vec3 p = MISTAKE == 20 ? cross(to_c, d) : cross(d, to_c);
@@ -94,7 +97,7 @@ float ray_triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c) {
   if (MISTAKE != 12 && MISTAKE != 52 && MISTAKE != 48 && abs(determinant) < zero) return none;
   if (MISTAKE == 8 && determinant < 0.0 || MISTAKE == 9 && determinant > 0.0) return none;
   vec3 q = cross(from_a, to_b);
-  float u = dot(from_a, p), v = dot(d, q), t = dot(to_c, q);
+  float u = dot(from_a, p), v = dot(d, q), t = dot(MISTAKE == 54 ? to_b : to_c, q);
   if (MISTAKE == 39) determinant = 1.0 / determinant;
   if (MISTAKE == 50) v = dot(d, cross(from_a, to_c));
   if (MISTAKE != 15) u /= determinant, v /= determinant;

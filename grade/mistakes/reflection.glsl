@@ -22,6 +22,8 @@
 // mistake 20: the direction itself was left out
 // mistake 21: direction and normal were multiplied part by part, in place of the dot product
 // mistake 22: the normal was not multiplied with (its dot product is taken away from each part)
+// mistake 23: the normal had to point along the ray (the dot product's absolute value)
+// mistake 24: the direction itself was left out, and the sign is wrong
 vec3 reflection(vec3 direction, vec3 normal) {
   float d = dot(direction, normal);
   vec3 right = direction - 2.0 * d * normal;
@@ -67,6 +69,10 @@ vec3 reflection(vec3 direction, vec3 normal) {
   return direction - 2.0 * direction * normal;
 #elif MISTAKE == 22
   return direction - 2.0 * d;
+#elif MISTAKE == 23
+  return direction - 2.0 * abs(d) * normal;
+#elif MISTAKE == 24
+  return 2.0 * d * normal;
 #elif MISTAKE == 10
   return direction - 2.0 * d * direction;
 #endif

@@ -32,8 +32,10 @@
 // mistake 30: the two indices were exchanged under the root
 // mistake 31: the two indices were exchanged everywhere but under the root
 // mistake 32: the part along the normal was taken away, not added
+// mistake 33: the ratio of the indices was always that of the smaller to the larger
 vec3 refraction(vec3 direction, vec3 normal, float n1, float n2) {
   float eta = MISTAKE == 1 ? n2 / n1 : (MISTAKE == 20 ? 1.0 : n1) / (MISTAKE == 21 ? 1.0 : n2);
+  if (MISTAKE == 33) eta = min(eta, 1.0 / eta);
   vec3 n = MISTAKE == 5 ? -normal : normal;
   float c = MISTAKE == 6 ? dot(direction, n) : -dot(direction, n);
   float rest = 1.0 - (MISTAKE == 7 ? eta : eta * eta) * (MISTAKE == 16 ? 1.0 - c : MISTAKE == 17 ? c * c : 1.0 - c * c);

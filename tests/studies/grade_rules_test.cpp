@@ -5,6 +5,7 @@
 #include "grade/expand_macros.h"
 #include "grade/glsl_names.h"
 #include "grade/participant.h"
+#include "grade/results.h"
 #include "grade/shader_rules.h"
 
 namespace gnomon::grade {
@@ -115,6 +116,30 @@ TEST(Alike, TenEqualAnswersAreOneGroup) {
   EXPECT_TRUE(groups[0].same_text);
   EXPECT_EQ(groups[1].students, (std::vector<std::size_t>{12, 14, 16}));
   EXPECT_EQ(groups[1].share, 0.8);
+}
+
+TEST(ClassPage, SaysWhatSeveralLostAndPutsEqualAnswersOnOneLine) {
+  Rubric rubric;
+  rubric.title = "One";
+  rubric.checks.resize(2);
+  rubric.checks[0].name = "first", rubric.checks[1].name = "second";
+  for (Check& check : rubric.checks) check.points = 1.0, check.runs = {{.function = "eye_ray"}};
+  std::vector<StudentResult> students;
+  for (const char* name : {"anna", "bert", "carl", "dora"}) {
+    students.push_back({name, {CheckResult{}, CheckResult{}}});
+    students.back().checks[1].points = 1.0;
+    if (students.size() < 4) students.back().checks[0].mistake = "0.5 is left out";
+  }
+  students[0].checks[1].points = 0.5, students[3].checks[1].points = 0.5;
+  const ClassResult result{
+      rubric, students, "gnomon grade", {{0, 1, 1.0, true}, {0, 2, 1.0, true}, {1, 2, 1.0, true}}};
+  const std::vector<CommonLoss> losses = common_losses(result);
+  ASSERT_EQ(losses.size(), 2u);
+  EXPECT_EQ(loss_words(result, losses[0]), "3 of 4: eye_ray as if 0.5 is left out");
+  EXPECT_EQ(loss_words(result, losses[1]), "2 of 4 without all points of: second");
+  const std::string page = class_page(result);
+  EXPECT_NE(page.find("What to say next time"), std::string::npos);
+  EXPECT_NE(page.find("<li>anna, bert and carl: the very same text</li>"), std::string::npos) << page;
 }
 
 }  // namespace
