@@ -82,7 +82,7 @@ struct Explanation {
   /// It explains most of what is wrong, and what it would make wrong is mostly so.
   bool holds() const {
     if (2 * explained < wrong) return false;
-    return 5 * confirmed >= 4 * would_be || (!is_contradicted && 2 * confirmed >= would_be);
+    return 3 * confirmed >= 2 * would_be || (!is_contradicted && 2 * confirmed >= would_be);
   }
 };
 

@@ -47,6 +47,8 @@
 // mistake 45: the nearer place was half as far
 // mistake 46: the center's distance from the origin of the world was taken for that from the ray's begin
 // mistake 47: the radius was cubed, not squared
+// mistake 48: t was -t at the nearer place (the answer has the wrong sign)
+// mistake 49: a ray that passes the sphere was answered with a very large number
 float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   vec3 o = origin - center, d = direction;
 #if MISTAKE == 2
@@ -67,6 +69,7 @@ float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   if (MISTAKE == 38) discriminant = b * b - c;
   if (MISTAKE == 40) discriminant = b * b - 4.0 * a * c;
   if (MISTAKE == 43 && discriminant > 0.0) return none;
+  if (MISTAKE == 49 && discriminant < 0.0) return 1e30;
   if (MISTAKE == 33 && b > 0.0) return none;
   if (MISTAKE == 34) discriminant = -b * sqrt(a) - a * c;
   if (MISTAKE != 17 && discriminant < (MISTAKE == 15 ? 0.1 : MISTAKE == 37 ? 0.25 : 0.0) && MISTAKE != 43) return none;
@@ -99,6 +102,7 @@ float ray_sphere(vec3 origin, vec3 direction, vec3 center, float radius) {
   return -b / a >= 0.0 ? -b / a : none;
 #endif
   float sign = MISTAKE == 27 ? -1.0 : 1.0;
+  if (MISTAKE == 48 && near >= least) return -near;
   if (near >= least) return sign * near;
   return far >= least || MISTAKE == 17 && isnan(far) ? sign * far : none;
 }

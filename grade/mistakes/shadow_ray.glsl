@@ -42,6 +42,7 @@
 // mistake 40: a lamp's direction was its place
 // mistake 41: a sun's ray ran from the point, without the offset
 // mistake 42: the end was half the way
+// mistake 43: a lamp's ray ran from the light to the point (a sun's did not)
 void shadow_ray(vec3 point, vec3 normal, vec4 light, float offset, out vec3 begin, out vec3 direction, out float end) {
   bool sun = MISTAKE == 30 ? light.w != 0.0 : MISTAKE == 10 ? false : MISTAKE == 11 ? true : light.w == 0.0;
   vec3 to_light = sun ? light.xyz : light.xyz - point;
@@ -69,6 +70,7 @@ void shadow_ray(vec3 point, vec3 normal, vec4 light, float offset, out vec3 begi
   if (MISTAKE == 40 && !sun) direction = light.xyz;
   if (MISTAKE == 41 && sun) begin = point;
   if (MISTAKE == 42 && !sun) end = 0.5 * far;
+  if (MISTAKE == 43 && !sun) direction = -direction;
   if (MISTAKE == 6) direction = -direction;
   if (MISTAKE == 16 && !sun) begin = light.xyz, direction = -direction;
   if (MISTAKE == 17) direction = normal;

@@ -123,7 +123,8 @@ TEST(ClassPage, SaysWhatSeveralLostAndPutsEqualAnswersOnOneLine) {
   rubric.title = "One";
   rubric.checks.resize(2);
   rubric.checks[0].name = "first", rubric.checks[1].name = "second";
-  for (Check& check : rubric.checks) check.points = 1.0, check.runs = {{.function = "eye_ray"}};
+  for (Check& check : rubric.checks)
+    check.points = 1.0, check.runs.resize(1), check.runs[0].function = "eye_ray";
   std::vector<StudentResult> students;
   for (const char* name : {"anna", "bert", "carl", "dora"}) {
     students.push_back({name, {CheckResult{}, CheckResult{}}});
