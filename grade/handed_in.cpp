@@ -155,7 +155,8 @@ Expected<void> add_folder(const std::string& folder, const std::string& prefix, 
   if (!names) return fail(names.error());
   for (const std::string& name : *names) {
     if (is_systems(name)) continue;
-    const auto added = add_file(folder + "/" + name, prefix + name, where + "/" + name, out);
+    const auto added =
+        add_file(fmt::format("{}/{}", folder, name), prefix + name, fmt::format("{}/{}", where, name), out);
     if (!added) return added;
   }
   for (const raster::ShaderFile& file : raster::own_shaders())
