@@ -1,5 +1,7 @@
-"""VTK's vtkShadowMapPass, for record.py: a spot light that moves, so that its map is drawn in every frame. /usr/bin/python3 vtk_shadow.py"""
+"""VTK's vtkShadowMapPass, for record.py: a spot light that moves, so that its map is drawn in every frame.
+/usr/bin/python3 vtk_shadow.py [WIDTH HEIGHT]"""
 import math
+import sys
 
 import vtkmodules.vtkInteractionStyle  # noqa: F401
 from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkPlaneSource, vtkSphereSource
@@ -18,7 +20,7 @@ def add(renderer, source, colour, place=(0, 0, 0)):
 
 def main():
     renderer, window = vtkRenderer(), vtkRenderWindow()
-    window.SetSize(320, 180)
+    window.SetSize(*(map(int, sys.argv[1:3]) if sys.argv[2:] else (320, 180)))
     window.SetMultiSamples(0)
     window.AddRenderer(renderer)
     floor, bar, ball = vtkPlaneSource(), vtkCubeSource(), vtkSphereSource()

@@ -117,7 +117,8 @@ def _wait(rd, controls, started, number, until):
             message = control.ReceiveMessage(None)
             if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting:
                 if not message.apiUse.supported:
-                    raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {message.apiUse.supportMessage}")
+                    why = message.apiUse.supportMessage or "its context is older than 3.2, or has no core profile"
+                    raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {why}")
                 if not presents:
                     _queue(control, number)
                 presents = True
