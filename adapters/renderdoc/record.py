@@ -52,12 +52,13 @@ def _library():
 
 
 def _open_new(rd, controls, opened):
-    """Opens what has RenderDoc in it and was started by this process since; what others started is let alone. `opened`: numbers that were looked at."""
+    """Opens what has RenderDoc in it and was started by this process since; what others started is let alone. `opened`: {number: process} of those
+    that were looked at; a number is another's when its process has ended."""
     ident = rd.EnumerateRemoteTargets("", 0)
     while ident:
-        if ident not in opened and (control := rd.CreateTargetControl("", ident, "gnomon", False)) is not None:
-            opened.add(ident)
-            if control.GetPID() in _descendants():
+        if not os.path.exists(f"/proc/{opened.get(ident, 'none')}") and (control := rd.CreateTargetControl("", ident, "gnomon", False)) is not None:
+            opened[ident] = control.GetPID()
+            if opened[ident] in _descendants():
                 controls.append(control)
             else:
                 control.Shutdown()
@@ -107,7 +108,7 @@ def _numbers(number):
 
 def _wait(rd, controls, started, number, until):
     """The file of the frame, once it is recorded. `controls`: what is opened to speak with the program and what it starts."""
-    opened, presents, begun = set(), False, time.monotonic()
+    opened, presents, begun = {}, False, time.monotonic()
     said, looked = begun + SAID_S, begun
     while (now := time.monotonic()) < until:
         if now >= looked:
