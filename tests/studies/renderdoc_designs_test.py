@@ -31,7 +31,7 @@ JUDGED = {
     "normaloff": ({"constant_depth": 0.0, "normal_offset_world": 0.05}, 1), "spotlinear": ({"constant_depth": 0.05}, 30),
     "scaled": ({"constant_depth": 0.002}, 1), "dynres": ({"constant_depth": 0.002}, 1), "viewmodel": ({"constant_depth": 0.002}, 1),
     "same512": ({"constant_depth": 0.002}, 2), "pancake": ({"constant_depth": 0.002}, 2), "taa": ({"constant_depth": 0.002}, 1),
-    "vsm": (None, 1), "evsm": (None, 1), "cascades": ({"constant_depth": 0.002}, 1), "castnormal": ({"constant_depth": 0.002}, 3),
+    "vsm": (None, 1), "evsm": (None, 1), "cascades": ({"constant_depth": 0.002}, 1), "castnormal": ({"constant_depth": 0.0}, 3),
     "omni": ({"constant_depth": 0.002}, 5), "layered": ({"constant_depth": 0.002}, 5)}
 # VTK looks its exponential map up with the map's aspect, and draws it with the window's: where its shadow is wrong is judged all the same.
 UNREAD = {"vtk": "widens x by 1.778"}
