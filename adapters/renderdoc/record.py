@@ -167,6 +167,9 @@ def _record_page(given):
     except PageError as error:
         print(f"error: {error}", flush=True)
         return error.code
+    except OSError as error:
+        print(f"error: {error}", flush=True)
+        return 5
     return 0
 
 

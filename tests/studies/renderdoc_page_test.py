@@ -35,6 +35,7 @@ THREE = os.path.join(SOURCE, "adapters/node_modules/three/build")
 if not os.path.isdir(THREE):
     skip("the npm package three is not installed")
 os.makedirs(FOLDER, exist_ok=True)
+os.environ["TMPDIR"] = FOLDER  # other recordings may run beside this
 # A sun, a floor, a box on it; words of the address: bias, mode.
 SCENE = """<!doctype html><body style="margin:0"><script type="importmap">{"imports": {"three": "/three/three.module.js"}}</script>
 <script type="module">
@@ -118,7 +119,7 @@ def left_over():
                 lines.append(file.read())
         except OSError:
             pass
-    return [line for line in lines if b"gnomon-browser-" in line]
+    return [line for line in lines if os.path.join(FOLDER, "gnomon-browser-").encode() in line]
 
 
 class Judged(unittest.TestCase):

@@ -30,7 +30,10 @@ SHADOWS_ON = "Are its shadows on (three.js: renderer.shadowMap.enabled, light.ca
 def _why_none(path):
     """Why a frame has no light with a shadow map, or None where it has. It is replayed by a process of its own: drivers crash."""
     words = [sys.executable, "-B", EXTRACTOR, path, "--list"]
-    done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=REPLAY_S, errors="replace")
+    try:
+        done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=REPLAY_S, errors="replace")
+    except subprocess.TimeoutExpired:
+        return f"its replay ended with code 124, for it takes more than {REPLAY_S} s"
     if done.returncode == 0:
         return None
     errors = [line.removeprefix("error: ") for line in done.stdout.splitlines() if line.startswith("error: ")]
@@ -129,12 +132,15 @@ class Recording:
             self._tell(f"clicking {self._page.click()}, for {self._why}")
         if self._await_drawing(math.inf):
             self._page.rest(SETTLE_S)
+            self._why = "the page drew shadows, and none while it was waited for"
+        patience = STOP_S
         while not self._is_late():
-            for stops in (lambda: self._page.arm(STOP_S), self._on_demand, self._from_the_start):
+            for stops in (lambda: self._page.arm(patience), self._on_demand, self._from_the_start):
                 path = self._takes(stops) or self._unread
                 if path:
                     return path
             self._tell(f"clicking {self._page.click()}")
+            patience *= 4  # a page may take so long for a frame
         raise PageError(self._refusal())
 
     def _refusal(self):
