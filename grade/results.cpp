@@ -159,11 +159,12 @@ std::string alike_words(const ClassResult& result, const AlikeGroup& group) {
               : i + 1 == group.students.size() ? " and "
                                                : ", ") +
              one_line(result.students[group.students[i]].name);
-  return fmt::format(
-      "{}: {}", names,
-      group.same_text ? "the very same text"
-                      : fmt::format("{}{} of what is their own, names aside", compare::percent(group.share),
-                                    group.students.size() > 2 ? " and more" : ""));
+  return fmt::format("{}: {}", names,
+                     group.same_text
+                         ? "the very same text"
+                         : fmt::format("{}{} of what is their own, names aside",
+                                       group.students.size() > 2 && group.share < 1.0 ? "at least " : "",
+                                       compare::percent(group.share)));
 }
 
 std::vector<CommonLoss> common_losses(const ClassResult& result) {
