@@ -144,7 +144,7 @@ ShadowParts parts_of(double map, double lookups, double rays, double tree) {
 TEST(ShadowCost, EachSideMakesWhatHasMoved) {
   const auto costs = shadow_costs(parts_of(107.0, 8.0, 23.0, 41.0));
   ASSERT_TRUE(costs);
-  EXPECT_EQ(shadow_cost_lines(*costs, false),
+  EXPECT_EQ(shadow_cost_lines(*costs, "map"),
             (std::vector<std::string>{"nothing moves: 8 ms by the map, 23 ms by rays",
                                       "light or camera moves: 115 ms by the map, 23 ms by rays",
                                       "casters move: 115 ms by the map, 64 ms by rays"}));
@@ -152,8 +152,8 @@ TEST(ShadowCost, EachSideMakesWhatHasMoved) {
 
 TEST(ShadowCost, TheHybridAsksTheTreeToo) {
   ShadowParts parts = parts_of(5.0, 4.0, 23.0, 41.0);
-  parts.hybrid = true;
-  EXPECT_EQ(shadow_cost_lines(*shadow_costs(parts), true).back(),
+  parts.by = "hybrid";
+  EXPECT_EQ(shadow_cost_lines(*shadow_costs(parts), parts.by).back(),
             "casters move: 50 ms by the hybrid, 64 ms by rays");
 }
 
@@ -172,7 +172,7 @@ TEST(ShadowCost, SpreadsAddUpAndLightsShareTheTree) {
 TEST(ShadowCost, WithoutATreesTimeThatOfMovingCastersIsNotTimed) {
   ShadowParts parts = parts_of(10.0, 1.0, 20.0, 40.0);
   parts.tree = {};
-  EXPECT_EQ(shadow_cost_lines(*shadow_costs(parts), false).back(),
+  EXPECT_EQ(shadow_cost_lines(*shadow_costs(parts), "map").back(),
             "casters move: 11 ms by the map, not timed by rays");
   parts.lookups = {};
   EXPECT_FALSE(shadow_costs(parts));
