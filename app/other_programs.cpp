@@ -121,8 +121,8 @@ Expected<Json> description_by(std::string_view program) {
   const auto end = run_and_listen({path, "--describe"});
   if (!end) return fail(end.error());
   if (end->code == 0) return Json::parse(end->said, nullptr, false);
-  return fail(ErrorKind::graphics, fmt::format("{} does not say what its commands are (exit code {}); {}", path,
-                                               end->code, where_programs_are));
+  return fail(ErrorKind::graphics, fmt::format("{} does not say what its commands are (exit code {}); {}",
+                                               path, end->code, where_programs_are));
 }
 
 /// Why what a program says of its commands is of no use; empty where it is.

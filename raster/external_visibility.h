@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "raster/options.h"
 #include "scene/base/expected.h"
@@ -19,9 +20,10 @@ struct VisibilityRequest {
   const LightView& map;     ///< fitted for the light at the map size asked for
   const View& camera;
   const MapOptions& options;
-  int shadow_samples = 0;  ///< to a light with size; 0: as the light says
-  std::uint64_t seed = 0;  ///< of the samples
-  bool analysis = false;   ///< of one picture; else it may be one of many in a row, made for speed
+  int shadow_samples = 0;         ///< to a light with size; 0: as the light says
+  std::uint64_t seed = 0;         ///< of the samples
+  std::optional<int> film_frame;  ///< RasterOptions::film_frame
+  bool analysis = false;          ///< of one picture; else it may be one of many in a row, made for speed
 };
 
 /// Says who decided one pixel; the first two were sure without a ray.

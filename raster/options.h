@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "scene/base/expected.h"
 #include "scene/base/timing.h"
@@ -214,6 +215,9 @@ struct RasterOptions {
   bool map_contents = true;
   int shadow_samples = 0;  ///< Technique::hybrid, lights with size: rays per point; 0: as the light says
   std::uint64_t seed = 0;  ///< of those samples
+  /// Technique::rays: which frame of a film this is, from 0 on; its history is that of the frames before. None: a picture by
+  /// itself, whose history is of a camera and lights that stand still.
+  std::optional<int> film_frame = std::nullopt;
   bool operator==(const RasterOptions&) const = default;
 };
 

@@ -240,8 +240,14 @@ Expected<void> GlRenderer::draw_light(Job& job, std::uint32_t index, LightRecord
   choose_slot(job, light, *view);
   const MapJob map_job{buffers_, light,     *view,     slot_->pass,
                        map,      &job.view, &shading_, caster_bias(map, *view, *world_)};
-  const VisibilityRequest request{
-      index, *view, job.view, map, job.options.shadow_samples, job.options.seed, job.options.analysis};
+  const VisibilityRequest request{index,
+                                  *view,
+                                  job.view,
+                                  map,
+                                  job.options.shadow_samples,
+                                  job.options.seed,
+                                  job.options.film_frame,
+                                  job.options.analysis};
   if (is_external(map.technique)) {
     slot_->kept.reset();
     if (auto ok = prepare_external(job, request, record); !ok) return ok;

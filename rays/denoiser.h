@@ -18,6 +18,8 @@ struct NoisyFrame {
   const Guides& guides;
   const LightRays& rays;
   const Image<Signal<count>>& signal;  ///< 1 where no ray is asked for
+  /// Something may have moved since the frame before: another truth than this frame's is in the history.
+  bool moves = false;
 };
 
 template <std::size_t count>
@@ -38,7 +40,7 @@ class Denoiser {
   Denoiser(const Denoiser&) = default;
 };
 
-/// Frames come from one camera that stands still, as the light and all objects do.
+/// Frames come from one camera that stands still. A pixel's history is given up where it shows another place.
 template <std::size_t count>
 std::unique_ptr<Denoiser<count>> make_denoiser(const raster::RayOptions& options, ImageSize size);
 

@@ -33,4 +33,14 @@ Image<Signal<with_passengers>> carry_passengers(const StillScene& scene, const I
   return out;
 }
 
+Image<Signal<with_passengers>> FilmPassengers::carry(const StillScene& scene, const Image<float>& truth) {
+  if (!denoiser_) denoiser_ = make_denoiser<with_passengers>(scene.wanted.options, scene.guides.size);
+  RaysWanted wanted = scene.wanted;
+  wanted.frame = frame_++;
+  const LightRays rays = cast_rays(scene.tracer, wanted, scene.guides, scene.receivers);
+  Image<Signal<with_passengers>> out;
+  denoiser_->add({scene.guides, rays, signal_of<with_passengers>(rays, &truth), true}, out);
+  return out;
+}
+
 }  // namespace gnomon::rays

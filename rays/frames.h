@@ -28,4 +28,15 @@ inline int frames_before(const raster::RayOptions& options) {
 /// Draws with the whole history, from its first frame on, for `truth` at each receiver.
 Image<Signal<with_passengers>> carry_passengers(const StillScene& scene, const Image<float>& truth);
 
+/// The history of a film with its passengers, frame after frame from the first.
+class FilmPassengers {
+ public:
+  /// Draws the next frame, for `truth` at each of its receivers.
+  Image<Signal<with_passengers>> carry(const StillScene& scene, const Image<float>& truth);
+
+ private:
+  std::unique_ptr<Denoiser<with_passengers>> denoiser_;
+  std::uint32_t frame_ = 0;
+};
+
 }  // namespace gnomon::rays

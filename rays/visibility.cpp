@@ -50,12 +50,11 @@ class RayVisibility final : public raster::ExternalVisibility, public raster::Ex
     const raster::RayOptions& options = request.options.rays;
     if (!(primitive.size == request.camera.size) && has_size(light_of(request)) &&
         (options.denoiser != raster::Denoiser::none || options.count == raster::RayCount::quarter))
-      return fail(
-          ErrorKind::usage,
-          fmt::format(
-              "technique rays: a picture of {} x {} comes in bands, and a denoiser reads across them; "
-              "a smaller picture, or --denoiser none with --rays 1 and more, goes",
-              request.camera.size.width, request.camera.size.height));
+      return fail(ErrorKind::usage,
+                  fmt::format("technique rays: a denoiser reads across the bands that {} x {} pixels come in "
+                              "for want of memory; "
+                              "give more (--memory), draw a smaller picture, or ask for --denoiser none",
+                              request.camera.size.width, request.camera.size.height));
     Kept& kept = kept_.at(request.light);
     time_run(kept.receivers_ms, [&] {
       silhouette_ = finder_->find(request.camera, first_row_, primitive, receivers_).traced;
@@ -94,6 +93,8 @@ class RayVisibility final : public raster::ExternalVisibility, public raster::Ex
     std::optional<Asked> asked;
     Guides guides;
     std::unique_ptr<Denoiser<alone>> before;              // with all frames but the last in its history
+    std::unique_ptr<Denoiser<alone>> drawn;               // and with it
+    std::optional<int> drawn_frame;                       // of a film
     std::uint64_t rays = 0, taps = 0, history_bytes = 0;  // of the last frame
     Times build, receivers_ms, cast, denoise;
   };
@@ -116,19 +117,31 @@ class RayVisibility final : public raster::ExternalVisibility, public raster::Ex
   }
 
   void draw_soft(const VisibilityRequest& request, Kept& kept, Image<float>& visibility) {
-    hold_history(request, kept);
-    const auto denoiser = kept.before->clone();
+    const int frame = request.film_frame.value_or(frames_before(request.options.rays));
+    if (request.film_frame)
+      go_on(request, kept);
+    else
+      hold_history(request, kept);
+    auto denoiser = kept.before->clone();
     LightRays rays;
-    time_run(kept.cast, [&] {
-      rays = cast_rays(*tracer_, wanted(request, frames_before(request.options.rays)), kept.guides,
-                       receivers_.points);
-    });
+    time_run(kept.cast,
+             [&] { rays = cast_rays(*tracer_, wanted(request, frame), kept.guides, receivers_.points); });
     kept.rays = rays.rays;
     time_run(kept.denoise, [&] {
       kept.taps = denoiser->add({kept.guides, rays, signal_of<alone>(rays, nullptr)}, out_);
     });
     kept.history_bytes = denoiser->history_bytes();
     for (std::size_t i = 0; i < out_.data.size(); ++i) visibility.data[i] = out_.data[i][drawn];
+    kept.drawn = std::move(denoiser), kept.drawn_frame = request.film_frame;
+  }
+
+  /// A film's history holds the frames before this one, as they were drawn. The same frame may be asked for again.
+  void go_on(const VisibilityRequest& request, Kept& kept) {
+    if (kept.drawn && kept.drawn_frame == *request.film_frame - 1)
+      kept.before = std::move(kept.drawn);
+    else if (!(kept.before && kept.drawn_frame == request.film_frame))
+      kept.before = make_denoiser<alone>(request.options.rays, kept.guides.size);
+    kept.asked.reset();
   }
 
   /// Casts the frames before the last, unless they are those that are held.

@@ -39,7 +39,8 @@ Json lesson_facts(const Comparison& c) {
   for (const compare::LightComparison& light : c.lights) {
     if (c.raster.options.map.technique == raster::Technique::hybrid) shown.insert("hybrid");
     for (std::size_t k = 0; k < compare::class_count; ++k)
-      if (light.classes[k] > 0) shown.insert(lesson_of(static_cast<compare::Label>(k + 1)).name);
+      if (light.classes[k] > 0 || light.class_errors[k] > 0.0)
+        shown.insert(lesson_of(static_cast<compare::Label>(k + 1)).name);
   }
   Json lessons = Json::object();
   for (const std::string_view name : shown) {

@@ -160,6 +160,8 @@ std::optional<Candidate> of_defaults(const Comparison& c, const LightComparison&
   MapOptions usual;
   usual.technique = drawn.technique, usual.filter.kernel = drawn.filter.kernel;
   usual.size = drawn.size, usual.window = drawn.window;
+  usual.rays.count = drawn.rays.count,
+  usual.rays.history = drawn.rays.history;  // what they cost is for the user to say
   usual.bias = biases_follow_from_gaps(c.raster) && gaps_tell(light, *c.measure)
                    ? drawn.bias
                    : raster::default_bias(usual);

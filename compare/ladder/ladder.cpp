@@ -12,7 +12,6 @@
 #include "compare/truth/exact_depth.h"
 #include "compare/truth/stored_surface.h"
 #include "raster/technique_traits.h"
-#include "rays/frames.h"
 #include "raytrace/receiver_tiles.h"
 #include "raytrace/sheets/column_sheets.h"
 #include "scene/base/parallel.h"
@@ -243,12 +242,12 @@ Image<rays::Signal<rays::with_passengers>> carry_truth(const LadderInput& in) {
   const rays::Guides guides = rays::make_guides(in.tracer, view, first_row, in.light(), receivers.points);
   Image<float> truth(guides.size);
   parallel_for(truth.data.size(), [&](std::size_t i) { truth.data[i] = true_visibility(in, i); });
-  return rays::carry_passengers(
-      {in.tracer,
-       {options.map.rays, options.seed, in.record().light, 0, static_cast<std::uint32_t>(first_row)},
-       guides,
-       receivers.points},
-      truth);
+  const rays::StillScene scene{
+      in.tracer,
+      {options.map.rays, options.seed, in.record().light, 0, static_cast<std::uint32_t>(first_row)},
+      guides,
+      receivers.points};
+  return in.passengers != nullptr ? in.passengers->carry(scene, truth) : rays::carry_passengers(scene, truth);
 }
 
 // A technique that asks for every receiver's own visibility has no texel, no stored depth and no bias: the rungs from

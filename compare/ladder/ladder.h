@@ -7,6 +7,7 @@
 #include "compare/comparison.h"
 #include "compare/truth/surfaces.h"
 #include "compare/truth/texel_groups.h"
+#include "rays/frames.h"
 #include "raytrace/sheets/sheets.h"
 
 namespace gnomon::compare {
@@ -25,6 +26,8 @@ struct LadderInput {
   const raytrace::RayTracedFrame& traced;
   std::size_t index = 0;  ///< of the light in both frames' lists
   ImagePlace place{};
+  /// Of a film drawn by few rays: its history up to the frame before. Null: a picture by itself.
+  rays::FilmPassengers* passengers = nullptr;
 
   const World& world() const { return tracer.world(); }
   const raster::LightRecord& record() const { return drawn.lights[index]; }

@@ -58,9 +58,12 @@ std::string median_text(const Times& t) {
 
 void add_times(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
+  const bool without_map = raster::samples_rays(c.raster.options.map.technique);
   if (!c.judged)
-    page.field("time", fmt::format("the map: {}, and {} to shade the picture with it",
-                                   median_text(drawn.map_pass), median_text(drawn.shade_pass)));
+    page.field("time", without_map ? fmt::format("{} to shade the picture with its few rays",
+                                                 median_text(drawn.shade_pass))
+                                   : fmt::format("the map: {}, and {} to shade the picture with it",
+                                                 median_text(drawn.map_pass), median_text(drawn.shade_pass)));
   page.field(c.judged ? "time" : "", exact_shadows_line(true_record(c, light)));
   add_shadow_costs(page, "shadows", c, light);
   if (c.judged) return;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rays/denoiser.h"
+#include "rays/places.h"
 
 namespace gnomon::rays {
 namespace {
@@ -36,7 +37,6 @@ class FidelityFx final : public Denoiser<count> {
       if (pass == 0) history_ = out;
       if (pass + 1 < passes) std::swap(in_, out);
     }
-    has_history_ = true;
     parallel_for(out.data.size(), [&](std::size_t i) {
       // The contrast: light is darkened where the variance is small.
       float& end = out.data[i][drawn];
@@ -82,9 +82,11 @@ class FidelityFx final : public Denoiser<count> {
 
   /// Into in_ and variance_: moments, the clamp to the window's mean and the blend with the history.
   std::uint64_t blend(const NoisyFrame<count>& frame) {
-    return filter_asked(frame.guides, in_, [&](int x, int y, std::uint64_t& taps) {
+    const std::uint64_t taps = filter_asked(frame.guides, in_, [&](int x, int y, std::uint64_t& read) {
       const Signal<count>& now = frame.signal.at(x, y);
+      const bool goes_on = places_.stays(frame.guides, x, y);
       Vec3f& kept = moments_.at(x, y);  // mean, sum of squared deviations, frames
+      if (!goes_on) kept = Vec3f(0.0f);
       const float frames = kept.z + 1.0f;
       const float mean_then = kept.x, mean_now = kept.x + (now[drawn] - kept.x) / frames;
       kept = Vec3f(mean_now, kept.y + (now[drawn] - mean_then) * (now[drawn] - mean_now), frames);
@@ -92,8 +94,10 @@ class FidelityFx final : public Denoiser<count> {
       const Vec2f& window = means_.at(x, y);
       const float mean = window.x / window.y, spread = std::max(mean - mean * mean, 0.0f);
       const float deviation = std::sqrt(spread);
-      Signal<count> then = has_history_ ? history_.at(x, y) : now;
-      taps += has_history_ ? 1 : 0;
+      Signal<count> then = goes_on ? history_.at(x, y) : now;
+      read += goes_on ? 1 : 0;
+      // As in svgf: the passes blur this frame's truth alone.
+      if constexpr (count > alone) then[blurred] = frame.moves ? now[blurred] : then[blurred];
       const float discontinuity = (then[drawn] - mean) / std::max(0.5f * deviation, 0.001f);
       kept.z *= std::exp(-discontinuity * discontinuity / 20.0f);
       if (kept.z < 16.0f) variance = std::max(variance, spread) * std::max(16.0f - kept.z, 1.0f);
@@ -102,6 +106,8 @@ class FidelityFx final : public Denoiser<count> {
       variance_.at(x, y) = variance;
       return between(then, now, 0.05f + 0.95f * young);
     });
+    places_.keep(frame.guides);
+    return taps;
   }
 
   float blurred_variance(int x, int y, std::uint64_t& taps) const {
@@ -144,7 +150,7 @@ class FidelityFx final : public Denoiser<count> {
   }
 
   ImageSize size_;
-  bool has_history_ = false;
+  Places places_;
   Image<Signal<count>> in_, history_;
   Image<Vec2f> rows_, means_;  // weighed sum and sum of weights
   Image<Vec3f> moments_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rays/denoiser.h"
+#include "rays/places.h"
 
 namespace gnomon::rays {
 namespace {
@@ -29,7 +30,13 @@ float surface_weight(const Guide& p, const Guide& q, int dx, int dy) {
 template <std::size_t count>
 class Svgf final : public Denoiser<count> {
  public:
-  explicit Svgf(ImageSize size) : size_(size), moments_(size), variance_(size), spare_variance_(size) {}
+  explicit Svgf(ImageSize size)
+      : size_(size),
+        history_(size, all_of<count>(1.0f)),
+        moments_(size),
+        held_(size),
+        variance_(size),
+        spare_variance_(size) {}
 
   std::uint64_t add(const NoisyFrame<count>& frame, Image<Signal<count>>& out) override {
     std::uint64_t taps = accumulate(frame);
@@ -49,17 +56,23 @@ class Svgf final : public Denoiser<count> {
  private:
   /// Section 4.1: the running mean of the visibility and of its first two moments.
   std::uint64_t accumulate(const NoisyFrame<count>& frame) {
-    ++held_;
-    const float share = std::max(1.0f / static_cast<float>(held_), least_share);
-    if (held_ == 1) history_ = frame.signal;
-    return filter_asked(frame.guides, history_, [&](int x, int y, std::uint64_t& taps) {
+    const std::uint64_t taps = filter_asked(frame.guides, history_, [&](int x, int y, std::uint64_t& read) {
+      float& held = held_.at(x, y);
+      held = places_.stays(frame.guides, x, y) ? held + 1.0f : 1.0f;
+      const float share = std::max(1.0f / held, least_share);
       const Signal<count>& now = frame.signal.at(x, y);
       const Vec2f moments(now[drawn], now[drawn] * now[drawn]);
       Vec2f& kept = moments_.at(x, y);
-      kept += share * (moments - kept);
-      if (held_ > 1) ++taps;
-      return between(history_.at(x, y), now, share);
+      kept = held == 1.0f ? moments : kept + share * (moments - kept);
+      if (held == 1.0f) return now;
+      ++read;
+      Signal<count> mean = between(history_.at(x, y), now, share);
+      // The passes then blur this frame's truth alone; what the history's own have made of it is no blur of this frame.
+      if constexpr (count > alone) mean[blurred] = frame.moves ? now[blurred] : mean[blurred];
+      return mean;
     });
+    places_.keep(frame.guides);
+    return taps;
   }
 
   /// Section 4.2: from the moments of the history, or where it is short from those of 7 x 7 pixels.
@@ -77,7 +90,8 @@ class Svgf final : public Denoiser<count> {
 
   float variance_at(const Guides& guides, int x, int y, std::uint64_t& taps) const {
     const auto of = [](const Vec2f& m) { return std::max(0.0f, m.y - m.x * m.x); };
-    if (held_ >= least_history) return of(moments_.at(x, y));
+    const float held = held_.at(x, y);
+    if (held >= least_history) return of(moments_.at(x, y));
     Vec2f sum(0.0f);
     float weights = 0.0f;
     for (int dy = -3; dy <= 3; ++dy)
@@ -88,7 +102,7 @@ class Svgf final : public Denoiser<count> {
             dx == 0 && dy == 0 ? 1.0f : surface_weight(guides.at(x, y), guides.at(x + dx, y + dy), dx, dy);
         sum += weight * moments_.at(x + dx, y + dy), weights += weight;
       }
-    return of(sum / weights) * static_cast<float>(least_history) / static_cast<float>(held_);
+    return of(sum / weights) * static_cast<float>(least_history) / held;
   }
 
   float blurred_variance(int x, int y, std::uint64_t& taps) const {
@@ -130,10 +144,10 @@ class Svgf final : public Denoiser<count> {
   }
 
   ImageSize size_;
-  int held_ = 0;
+  Places places_;
   Image<Signal<count>> history_;
   Image<Vec2f> moments_;
-  Image<float> variance_, spare_variance_;
+  Image<float> held_, variance_, spare_variance_;
 };
 
 }  // namespace

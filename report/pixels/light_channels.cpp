@@ -300,6 +300,8 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
       {"technique", compare::drawn_technique(c)},
       {"gaps_decide", compare::biases_follow_from_gaps(c.raster)},
       {"compares_depths", compare::compares_depths(c)},
+      {"sized", has_size(compare::light_of(c, light))},
+      {"as_cast", options.rays.denoiser == raster::Denoiser::none},
       {"bias",
        {{"constant", compare::draws_bias(c) ? record.bias_constant_world : 0.0},
         {"slope", bias.slope},

@@ -195,7 +195,9 @@ std::string error_head(const compare::Figure& measure) {
 
 std::string row_text(const studies::FamilyResult& family, const studies::TuneGoal& goal) {
   const studies::Attempt& a = family.attempt();
-  return fmt::format("  {:<34} {:>6} {:>10} {:>10}  {}\n", family.family.name, a.size,
+  const std::string size =
+      raster::reads_setting(family.family.map, "map-size") ? std::to_string(a.size) : "-";
+  return fmt::format("  {:<34} {:>6} {:>10} {:>10}  {}\n", family.family.name, size,
                      compare::milliseconds(a.time_ms), compare::byte_count(a.map_bytes),
                      compare::figure_words(a.figures, goal.measure()));
 }

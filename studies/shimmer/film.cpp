@@ -33,10 +33,10 @@ std::uint8_t bits_of(const RungFrame& frame, std::size_t i) {
 
 }  // namespace
 
-glm::u8vec3 flip_colour(std::size_t label) {
+glm::u8vec3 flip_colour(std::size_t label, compare::Ladder ladder) {
   return compare::label_colour(label == outside_map_flip
                                    ? compare::Label::outside_map
-                                   : compare::step_text(static_cast<compare::Cause>(label)).label);
+                                   : compare::step_text(static_cast<compare::Cause>(label), ladder).label);
 }
 
 Expected<Rgb8Image> unshadowed_picture(Scene& scene, raster::Renderer& renderer,
@@ -59,7 +59,7 @@ glm::u8vec3 film_colour(const glm::u8vec3& unshadowed, float visibility) {
           static_cast<std::uint8_t>(share * float(unshadowed.b))};
 }
 
-Expected<void> FilmRecorder::add_light(const ShimmerLight& light, FilmOfLight& film) {
+Expected<void> FilmRecorder::add_light(const ShimmerLight& light, compare::Ladder ladder, FilmOfLight& film) {
   const RungFrame& frame = light.temporal.last();
   const Image<std::uint8_t>& flips = light.temporal.last_flips();
   const auto shadowed = [&](std::size_t rung) {
@@ -72,7 +72,7 @@ Expected<void> FilmRecorder::add_light(const ShimmerLight& light, FilmOfLight& f
   film.drawn.add(drawn);
   film.truth.add(shadowed(0));
   film.flipped.add(painted(base_.size, [&](std::size_t i) {
-    return flips.data[i] > 0 ? flip_colour(flips.data[i] - std::size_t{1}) : drawn.data[i];
+    return flips.data[i] > 0 ? flip_colour(flips.data[i] - std::size_t{1}, ladder) : drawn.data[i];
   }));
   const auto seen = encode_png(painted(base_.size, [&](std::size_t i) {
     return glm::u8vec3(to_8_bit(frame.rungs[6].data[i]), to_8_bit(frame.rungs[0].data[i]), bits_of(frame, i));
@@ -90,7 +90,8 @@ Expected<void> FilmRecorder::add(const ShimmerFrame& frame) {
   for (std::size_t i = 0; i < frame.shimmer.lights.size(); ++i) {
     if (i == lights_.size())
       lights_.push_back({{}, {}, {base_.size, fps_}, {base_.size, fps_}, {base_.size, fps_}});
-    if (const auto added = add_light(frame.shimmer.lights[i], lights_[i]); !added) return added;
+    if (const auto added = add_light(frame.shimmer.lights[i], frame.shimmer.ladder(), lights_[i]); !added)
+      return added;
   }
   return {};
 }

@@ -8,7 +8,7 @@
 namespace gnomon::studies {
 
 /// The colour of a flip by its label: that of the still label which stands for the step.
-glm::u8vec3 flip_colour(std::size_t label);
+glm::u8vec3 flip_colour(std::size_t label, compare::Ladder ladder);
 
 /// What the first frame's camera sees with no shadow at all, as films are drawn on. The scene's camera is moved there
 /// and back.
@@ -33,7 +33,7 @@ class FilmRecorder {
   const std::vector<FilmOfLight>& lights() const { return lights_; }
 
  private:
-  Expected<void> add_light(const ShimmerLight& light, FilmOfLight& film);
+  Expected<void> add_light(const ShimmerLight& light, compare::Ladder ladder, FilmOfLight& film);
   Rgb8Image base_;
   double fps_;
   std::vector<FilmOfLight> lights_;

@@ -21,18 +21,18 @@ Json mean(double sum, std::uint64_t count) {
   return count > 0 ? number(sum / static_cast<double>(count)) : Json(nullptr);
 }
 
-Json budget_json(const TemporalSums& sums) {
+Json budget_json(const TemporalSums& sums, compare::Ladder ladder) {
   Json steps = Json::array();
   for (std::size_t k = 0; k < compare::cause_count; ++k)
-    steps.push_back({{"cause", compare::cause_name(static_cast<compare::Cause>(k))},
+    steps.push_back({{"cause", compare::cause_name(static_cast<compare::Cause>(k), ladder)},
                      {"signed", mean(sums.signed_sum[k], sums.receivers)},
                      {"absolute", mean(sums.absolute_sum[k], sums.receivers)}});
   return steps;
 }
 
-Json by_label_json(const TemporalSums& sums) {
+Json by_label_json(const TemporalSums& sums, compare::Ladder ladder) {
   Json json = Json::object();
-  for (std::size_t k = 0; k < flip_label_count; ++k) json[flip_label_name(k)] = sums.by_label[k];
+  for (std::size_t k = 0; k < flip_label_count; ++k) json[flip_label_name(k, ladder)] = sums.by_label[k];
   return json;
 }
 
@@ -87,8 +87,8 @@ Json light_json(const Shimmer& shimmer, const ShimmerLight& light) {
           {"flips", total.flips},
           {"flips_per_receiver_second", number(flips_per_receiver_second(shimmer.options, light))},
           {"seam_flips", total.seam_flips},
-          {"by_label", by_label_json(total)},
-          {"budget", budget_json(total)},
+          {"by_label", by_label_json(total, shimmer.ladder())},
+          {"budget", budget_json(total, shimmer.ladder())},
           {"error",
            {{"signed", mean(total.error_sum, total.receivers)},
             {"absolute", mean(total.error_absolute_sum, total.receivers)}}},

@@ -15,8 +15,8 @@ namespace {
 using compare::Json;
 using report::data_uri;
 
-std::string label_words(std::size_t label) {
-  return label == outside_map_flip ? "outside the map" : compare::spoken(flip_label_name(label));
+std::string label_words(std::size_t label, compare::Ladder ladder) {
+  return label == outside_map_flip ? "outside the map" : compare::spoken(flip_label_name(label, ladder));
 }
 
 unsigned most_flips(const ShimmerLight& light) {
@@ -25,12 +25,12 @@ unsigned most_flips(const ShimmerLight& light) {
 }
 
 // A step bears the number of the rung that it leads to.
-Json labels_json() {
+Json labels_json(compare::Ladder ladder) {
   Json labels = Json::array();
   for (std::size_t k = 0; k < flip_label_count; ++k) {
-    const glm::u8vec3 c = flip_colour(k);
-    labels.push_back({{"key", flip_label_name(k)},
-                      {"name", label_words(k)},
+    const glm::u8vec3 c = flip_colour(k, ladder);
+    labels.push_back({{"key", flip_label_name(k, ladder)},
+                      {"name", label_words(k, ladder)},
                       {"colour", report::hex_colour(c.r, c.g, c.b)},
                       {"letter", k == outside_map_flip ? "O" : std::to_string(k + 1)}});
   }
@@ -44,7 +44,7 @@ std::string facts(const Shimmer& shimmer, FilmFormat format) {
     most.push_back(most_flips(light));
   }
   return Json{{"kind", "shimmer"},
-              {"labels", labels_json()},
+              {"labels", labels_json(shimmer.ladder())},
               {"verdicts", std::move(verdicts)},
               {"most_flips", std::move(most)},
               {"film", {{"words", film_format_words(format)}, {"extension", film_extension(format)}}}}

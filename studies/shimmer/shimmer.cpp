@@ -93,7 +93,7 @@ class Film {
   Expected<void> make_frame(int frame);
   void begin_lights();
   std::optional<double> unsnapped_texel(const Light& light) const;
-  RungFrame climb_light(std::size_t i) const;
+  RungFrame climb_light(std::size_t i);
   void keep_anchors(Image<Label>& labels) const;
   Expected<void> load_stage(int frame);
   void leave_out_moved(Image<Label>& labels) const;
@@ -117,6 +117,7 @@ class Film {
   raytrace::RayTracedFrame own_truth_;
   const raytrace::RayTracedFrame* truth_ = nullptr;
   std::vector<Light> truth_lights_;
+  std::vector<rays::FilmPassengers> passengers_;  // by light
   Shimmer out_;
 };
 
@@ -221,9 +222,9 @@ std::array<Image<float>, compare::rung_count> ends_of_ladder(const compare::Ladd
   return rungs;
 }
 
-RungFrame Film::climb_light(std::size_t i) const {
+RungFrame Film::climb_light(std::size_t i) {
   const raster::LightRecord& record = drawn_.lights[i];
-  const compare::LadderInput input{*tracer_, *topology_, drawn_, *truth_, i};
+  const compare::LadderInput input{*tracer_, *topology_, drawn_, *truth_, i, {}, &passengers_[i]};
   Image<Label> labels = compare::sort_pixels(input);
   keep_anchors(labels);
   leave_out_moved(labels);
@@ -246,6 +247,7 @@ std::optional<double> Film::unsnapped_texel(const Light& light) const {
 void Film::begin_lights() {
   const ShimmerOptions& o = out_.options;
   out_.receivers = truth_->receiver;
+  passengers_.resize(drawn_.lights.size());
   out_.context = drawn_.context;
   const ReceiverSpacing spacing = receiver_spacing(truth_->receiver, *world_, o.anchors);
   for (const raster::LightRecord& record : drawn_.lights) {
@@ -265,6 +267,7 @@ Expected<void> Film::make_frame(int frame) {
     if (const auto taken = load_stage(frame); !taken) return taken;
   scene_->lights = pose.lights;
   raster::set_map_camera(*renderer_, map_camera(pose, frame));
+  out_.options.compare.raster.film_frame = frame;
   auto drawn = renderer_->render(o.compare.raster, lights_);
   if (!drawn) return fail(drawn.error());
   drawn_ = std::move(*drawn);

@@ -28,6 +28,7 @@ struct ShimmerLight {
 };
 
 struct Shimmer {
+  compare::Ladder ladder() const { return compare::ladder_of(options.compare.raster.map.technique); }
   const World* world = nullptr;
   ShimmerOptions options;
   Image<raytrace::SurfacePoint> receivers;  ///< by pixel of the first frame

@@ -29,13 +29,14 @@ double per_receiver(double sum, const TemporalSums& total) {
   return total.receivers > 0 ? sum / static_cast<double>(total.receivers) : 0.0;
 }
 
-std::string budget_rows(const TemporalSums& total) {
+std::string budget_rows(const TemporalSums& total, compare::Ladder ladder) {
   std::string text = "  step          signed     absolute   flips\n";
   for (std::size_t k = 0; k < compare::cause_count; ++k)
-    text += fmt::format(
-        "  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", compare::spoken(compare::cause_name(static_cast<Cause>(k))),
-        per_receiver(compare::beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total),
-        per_receiver(total.absolute_sum[k], total), grouped(total.by_label[k]));
+    text +=
+        fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n",
+                    compare::spoken(compare::cause_name(static_cast<Cause>(k), ladder)),
+                    per_receiver(compare::beyond_rounding(total.signed_sum[k], total.absolute_sum[k]), total),
+                    per_receiver(total.absolute_sum[k], total), grouped(total.by_label[k]));
   text +=
       fmt::format("  {:<12} {:>+11.3e} {:>11.3e} {:>9}\n", "sum",
                   per_receiver(compare::beyond_rounding(total.error_sum, total.error_absolute_sum), total),
@@ -49,7 +50,10 @@ std::string budget_rows(const TemporalSums& total) {
 }
 
 /// The step that makes most flips, as what is seen.
-std::string_view what_flickers(std::size_t most) {
+std::string_view what_flickers(std::size_t most, compare::Ladder ladder) {
+  if (ladder == compare::Ladder::rays)
+    return static_cast<Cause>(most) == Cause::rays_lag ? "Shadows trail behind"
+                                                       : "Noise boils in soft shadows";
   if (most == outside_map_flip) return "Shadows come and go at the map's border";
   switch (static_cast<Cause>(most)) {
     case Cause::sampling:
@@ -84,7 +88,7 @@ std::string shimmer_sentence(const Shimmer& shimmer, const ShimmerLight& light) 
   const auto most = static_cast<std::size_t>(std::max_element(total.by_label.begin(), total.by_label.end()) -
                                              total.by_label.begin());
   return fmt::format("{}: a point flips {} times a second ({} flips of {} points in {} frames){}",
-                     what_flickers(most),
+                     what_flickers(most, shimmer.ladder()),
                      compare::plain_number(flips_per_receiver_second(shimmer.options, light)),
                      grouped(total.flips), grouped(light.receivers), shimmer.options.time.frames,
                      snap_would_help(shimmer, light, most) ? "; --snap keeps the map's texels still." : ".");
@@ -95,13 +99,14 @@ std::string shimmer_table(const Shimmer& shimmer) {
   const raster::MapOptions& map = o.compare.raster.map;
   std::string text;
   for (const ShimmerLight& light : shimmer.lights) {
+    const std::string size = raster::reads_setting(map, "map-size") ? fmt::format(" {}", map.size) : "";
     const std::string head = fmt::format(
-        "{}: {} {}, {} frames at {:g} a second, {}", one_line(shimmer.world->scene->lights[light.light].name),
-        technique_name(map.technique), map.size, o.time.frames, o.time.fps, movement(o));
+        "{}: {}{}, {} frames at {:g} a second, {}", one_line(shimmer.world->scene->lights[light.light].name),
+        technique_name(map.technique), size, o.time.frames, o.time.fps, movement(o));
     for (const std::string& line : compare::wrapped(head, 80)) text += line + '\n';
     for (const std::string& line : compare::wrapped(shimmer_sentence(shimmer, light), 78))
       text += "  " + line + '\n';
-    text += budget_rows(light.temporal.total());
+    text += budget_rows(light.temporal.total(), shimmer.ladder());
     if (light.texel_world_unsnapped)
       text += fmt::format("  texels of {} world units; without --snap {}\n",
                           compare::plain_number(light.texel_world),

@@ -86,9 +86,9 @@ std::array<double, 8> angles_stood_for(std::span<const GridStep> steps, const Ve
 
 }  // namespace
 
-std::string_view flip_label_name(std::size_t label) {
+std::string_view flip_label_name(std::size_t label, compare::Ladder ladder) {
   return label == outside_map_flip ? std::string_view("outside_map")
-                                   : compare::cause_name(static_cast<compare::Cause>(label));
+                                   : compare::cause_name(static_cast<compare::Cause>(label), ladder);
 }
 
 std::array<double, cause_count> temporal_errors(const std::array<float, rung_count>& before,

@@ -22,7 +22,7 @@ struct RungFrame {
 /// Who made a flip: the six causes, and the map's end where the receiver lies outside in either frame.
 inline constexpr std::size_t flip_label_count = compare::cause_count + 1;
 inline constexpr std::uint8_t outside_map_flip = compare::cause_count;
-std::string_view flip_label_name(std::size_t label);
+std::string_view flip_label_name(std::size_t label, compare::Ladder ladder);
 
 /// T_1 … T_6 of a receiver.
 std::array<double, compare::cause_count> temporal_errors(const std::array<float, compare::rung_count>& before,

@@ -96,7 +96,7 @@ class Drawings {
     if (!frame) return fail(frame.error());
     const raster::LightRecord& light = frame->lights[0];
     std::vector<float> seen = light.visibility.data;
-    if (map.technique != raster::Technique::izb)
+    if (map.technique != raster::Technique::izb && !raster::samples_rays(map.technique))
       seen.insert(seen.end(), light.gap.data.begin(), light.gap.data.end());
     return seen;
   }

@@ -249,7 +249,7 @@ TEST(Usage, ARefusedTechniqueIsNotCommentedOn) {
   expect_one_line(
       run_gnomon(Words{"compare", "fence", "--technique", "cube"} + small), 2,
       "allowed there hard, pcf, pcss, vsm, esm, evsm, msm, second-depth, midpoint, csm, lispsm, izb, "
-      "hybrid)");
+      "hybrid, rays)");
   const ProcessResult made = run_gnomon(Words{"compare", "fence"} + small, {.folder = folder.path()});
   EXPECT_NE(made.err.find("follows the camera by parts of a texel"), std::string::npos) << made.err;
   EXPECT_NE(read_file(folder / "out/fence/result.json").find("follows the camera by parts"),

@@ -269,6 +269,8 @@ std::vector<raster::Technique> techniques_for(LightType type, bool all) {
   std::vector<raster::Technique> out;
   std::size_t turn = 0;
   for (const raster::TechniqueTraits& traits : raster::all_technique_traits()) {
+    if (raster::samples_rays(traits.technique))
+      continue;  // its noise is of the pixel's and the light's number
     if (all) {
       if (traits.lights.has(type)) out.push_back(traits.technique);
       continue;

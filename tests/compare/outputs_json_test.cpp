@@ -126,11 +126,12 @@ TEST(ResultJson, KeepsTheOrderAndNamesOfTheContract) {
   std::vector<std::string> classes, causes;
   for (const auto& [name, count] : json["lights"][0]["classes"].items()) classes.push_back(name);
   for (const auto& step : json["lights"][0]["budget"]) causes.push_back(step["cause"]);
-  EXPECT_EQ(classes,
-            (std::vector<std::string>{"acne", "precision", "peter_panning", "light_leak", "aliasing",
-                                      "missed_feature", "false_feature", "blur", "light_size", "outside_map",
-                                      "custom_shader", "unexplained", "caster_bias", "missing_caster",
-                                      "moved_caster", "clipped_caster", "culled_caster", "ignored_alpha"}));
+  EXPECT_EQ(classes, (std::vector<std::string>{
+                         "acne",           "precision",     "peter_panning", "light_leak",     "aliasing",
+                         "missed_feature", "false_feature", "blur",          "light_size",     "outside_map",
+                         "custom_shader",  "unexplained",   "caster_bias",   "missing_caster", "moved_caster",
+                         "clipped_caster", "culled_caster", "ignored_alpha", "noise",          "lag",
+                         "remap"}));
   EXPECT_EQ(causes,
             (std::vector<std::string>{"light_size", "sampling", "slope", "precision", "bias", "filter"}));
 }

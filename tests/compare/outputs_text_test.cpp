@@ -336,7 +336,7 @@ TEST(CellSummary, WeighsEdgesByTheirNumber) {
 }
 
 TEST(Lessons, EachIsTitledAndBeginsWithWordsAndACommand) {
-  ASSERT_EQ(report::all_lessons().size(), 25u);
+  ASSERT_EQ(report::all_lessons().size(), 26u);
   for (const report::Lesson& one : report::all_lessons()) {
     EXPECT_FALSE(one.title.empty()) << one.name;
     EXPECT_TRUE(one.command.starts_with("gnomon ")) << one.name << ": " << one.command;

@@ -102,6 +102,42 @@ TEST(Denoisers, KeepAnotherTruthOfNoFrame) {
   EXPECT_FLOAT_EQ(out.at(10, 10)[rays::lagged], 0.25f);
 }
 
+TEST(Denoisers, BlurIsOfThisFramesTruthThoughItsHistoryHoldsOthers) {
+  for (const Denoiser kind : kinds) {
+    const auto denoiser = rays::make_denoiser<with_passengers>(
+        {raster::RayCount::one, raster::RaySampler::random, kind, 8}, size);
+    Image<Signal<with_passengers>> out;
+    const Guides where = guides();
+    for (int frame = 0; frame < 6; ++frame) {
+      const LightRays rays = noise(static_cast<std::uint64_t>(frame), 8.0f);
+      denoiser->add({where, rays, signal<with_passengers>(rays, frame == 5 ? 1.0f : 0.0f), true}, out);
+    }
+    for (std::size_t i = 0; i < out.data.size(); ++i) {
+      if (!where.data[i].asked()) continue;
+      EXPECT_NEAR(out.data[i][rays::blurred], 1.0f, 1e-5f) << int(kind);  // rounding of means of equal floats
+      EXPECT_LT(out.data[i][rays::lagged], 0.95f) << int(kind) << ": five frames were dark";
+    }
+  }
+}
+
+TEST(Denoisers, HistoryIsGivenUpWhereAPixelShowsAnotherPlace) {
+  for (const Denoiser kind : kinds) {
+    const auto make = [&] {
+      return rays::make_denoiser<alone>({raster::RayCount::one, raster::RaySampler::random, kind, 8}, size);
+    };
+    const auto held = make(), fresh = make();
+    Image<Signal<alone>> after, first;
+    const Guides before = guides();
+    Guides moved = before;
+    for (auto& guide : moved.data) guide.place.y += 40.0f;
+    const LightRays then = noise(1, 8.0f), now = noise(2, 8.0f);
+    held->add({before, then, signal<alone>(then, 0.0f)}, after);
+    held->add({moved, now, signal<alone>(now, 0.0f), true}, after);
+    fresh->add({moved, now, signal<alone>(now, 0.0f)}, first);
+    EXPECT_EQ(after.data, first.data) << int(kind);
+  }
+}
+
 // A plain à-trous, as the paper's equations stand.
 double plain_atrous(const Guides& where, const Image<double>& in, int x, int y, int step, double tolerance) {
   constexpr std::array h{1.0 / 16.0, 0.25, 0.375, 0.25, 1.0 / 16.0};

@@ -111,7 +111,15 @@ def record(name, *more):
 
 
 def left_over():
-    """Browsers of this recorder that run, by their profiles."""
+    """Browsers of this recorder that still run after ten seconds, by their profiles: the system ends their processes one by one."""
+    for _ in range(100):
+        if not (lines := running()):
+            break
+        time.sleep(0.1)
+    return lines
+
+
+def running():
     lines = []
     for path in glob.glob("/proc/[0-9]*/cmdline"):
         try:

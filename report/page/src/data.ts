@@ -28,6 +28,8 @@ export interface LightJson {
   map_known: boolean; // false: of another renderer's picture without its map; nothing is drawn in light space
   technique: string;
   gaps_decide: boolean; // a pixel is drawn dark exactly when its gap exceeds the constant bias
+  sized: boolean; // the light has a size
+  as_cast: boolean; // of few rays: no denoiser
   compares_depths: boolean; // false: an exact technique, without a bias
   bias: { constant: number; slope: number; normal_offset: number; receiver_plane: boolean; adaptive: number | null; scales: boolean };
   // adaptive: its slack, world units; scales: gaps and constant are those of a texel of texel_world

@@ -93,7 +93,9 @@ export function story(light: Light, pixel: Pixel, bias: number): string {
   return say("story", {
     not_compared: pixel.label < 0,
     without_map: !json.map_known,
+    one_ray: ofRays() && !json.sized,
     few_rays: ofRays(),
+    as_cast: json.as_cast,
     exact: !json.compares_depths,
     filtered: !json.gaps_decide,
     other_bias,
