@@ -151,7 +151,8 @@ std::string pixel_words(const compare::Comparison& c, const compare::LightCompar
   Telling telling;
   telling.holds("not_compared", !compare::is_compared(pixel.label));
   telling.holds("without_map", !c.raster.has_known_map());
-  const bool of_rays = pixel.ladder == compare::Ladder::rays, sized = has_size(compare::light_of(c, light));
+  const bool of_rays = pixel.ladder == compare::Ladder::rays,
+             sized = compare::true_record(c, light).samples > 0;  // the lab keeps no world
   telling.holds("one_ray", of_rays && !sized), telling.holds("few_rays", of_rays);
   telling.holds("as_cast", c.raster.options.map.rays.denoiser == raster::Denoiser::none);
   telling.holds("exact", !compare::compares_depths(c));
