@@ -43,7 +43,8 @@ Expected<int> run_program(std::vector<std::string> words, std::optional<double>,
 Expected<ApartEnd> run_apart(const ApartProgram& program) {
   return no_program(program.words({}, {}));
 }
-Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double>) {
+Expected<ProgramEnd> run_and_listen(std::vector<std::string> words, std::optional<double>,
+                                    const std::function<void(std::string_view)>&) {
   return no_program(words);
 }
 void end_programs() {}
