@@ -13,12 +13,13 @@ import tempfile
 import time
 
 LONGEST_S = 600  # from the program's start to the frame
+LONGEST_OF_PAGES_S = 120
 LOOKED_S = 0.3  # between two looks for programs that are new
 SAID_S = 30  # after so long without a frame it is said what is waited for
 TO_END_S = 5  # in which a program may end by itself when it is told to
 
 
-def record(program, words, number, path):
+def record(program, words, number, path, longest_s=LONGEST_S):
     """Records frame `number` of a program to `path`; an error is a SystemExit with its words."""
     found = shutil.which(program)
     if not found:
@@ -28,7 +29,7 @@ def record(program, words, number, path):
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
     for caught in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(caught, lambda number, _: sys.exit(128 + number))
-    controls = []
+    controls = {}
     try:
         with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(path))) as folder:
             # Not by RenderDoc's own ExecuteAndInject, which has a second's patience with a program that loads for long.
@@ -37,9 +38,9 @@ def record(program, words, number, path):
             prepared = {**os.environ, "LD_PRELOAD": library, "RENDERDOC_ORIGPRELOAD": library, "RENDERDOC_CAPFILE": os.path.join(folder, "frame"),
                         "ENABLE_VULKAN_RENDERDOC_CAPTURE": "1"}
             started = subprocess.Popen([os.path.abspath(found), *words], env=prepared)
-            shutil.move(_wait(rd, controls, started, number, time.monotonic() + LONGEST_S), path)
+            shutil.move(_wait(rd, controls, started, number, longest_s), path)
     finally:
-        for control in controls:
+        for control in controls.values():
             control.Shutdown()
         _end(_descendants())
         rd.ShutdownReplay()
@@ -51,16 +52,17 @@ def _library():
         return next(line.split()[-1] for line in file if "librenderdoc" in line)
 
 
-def _open_new(rd, controls, opened):
-    """Opens what has RenderDoc in it and was started by this process since; what others started is let alone. `opened`: {number: process} of those
-    that were looked at; a number is another's when its process has ended."""
+def _open_new(rd, controls, others):
+    """Opens what has RenderDoc in it and was started by this process; what others started is let alone. `controls`: {number: what is open};
+    `others`: {number: process} of the others', which are looked at once; a number is another's when its process has ended."""
     ident = rd.EnumerateRemoteTargets("", 0)
     while ident:
-        if not os.path.exists(f"/proc/{opened.get(ident, 'none')}") and (control := rd.CreateTargetControl("", ident, "gnomon", False)) is not None:
-            opened[ident] = control.GetPID()
-            if opened[ident] in _descendants():
-                controls.append(control)
+        is_known = ident in controls or os.path.exists(f"/proc/{others.get(ident, 'none')}")
+        if not is_known and (control := rd.CreateTargetControl("", ident, "gnomon", False)) is not None:
+            if control.GetPID() in _descendants():
+                controls[ident] = control
             else:
+                others[ident] = control.GetPID()
                 control.Shutdown()
         ident = rd.EnumerateRemoteTargets("", ident)
 
@@ -106,31 +108,29 @@ def _numbers(number):
     return numbers
 
 
-def _wait(rd, controls, started, number, until):
+def _wait(rd, controls, started, number, longest_s):
     """The file of the frame, once it is recorded. `controls`: what is opened to speak with the program and what it starts."""
-    opened, presents, begun = {}, False, time.monotonic()
+    others, presents, begun = {}, False, time.monotonic()
     said, looked = begun + SAID_S, begun
-    while (now := time.monotonic()) < until:
+    while (now := time.monotonic()) < begun + longest_s:
         if now >= looked:
-            _open_new(rd, controls, opened)
+            _open_new(rd, controls, others)
             looked = time.monotonic() + LOOKED_S
-        for control in list(controls):
+        for ident, control in list(controls.items()):
             message = control.ReceiveMessage(None)
             if message.type == rd.TargetControlMessageType.RegisterAPI and message.apiUse.presenting:
                 if not message.apiUse.supported:
                     why = message.apiUse.supportMessage or "its context is older than 3.2, or has no core profile"
                     raise SystemExit(f"record: RenderDoc cannot record {message.apiUse.name} here: {why}")
-                if not presents:
-                    _queue(control, number)
+                _queue(control, number)
                 presents = True
             elif message.type == rd.TargetControlMessageType.NewCapture:
                 taken = message.newCapture.frameNumber
                 if taken > number:
                     print(f"record: frame {taken}, for the program had drawn frame {number} before it could be recorded", file=sys.stderr)
                 return message.newCapture.path
-            elif message.type == rd.TargetControlMessageType.Disconnected:
-                control.Shutdown()
-                controls.remove(control)
+            elif message.type in (rd.TargetControlMessageType.Disconnected, rd.TargetControlMessageType.Busy):
+                controls.pop(ident).Shutdown()  # it has ended, or somebody else speaks with it, who may be looking for a program of their own
         if started.poll() is not None and not _descendants():
             raise SystemExit("record: the program has ended before the frame was drawn" + ("" if presents else ", and presented nothing"))
         if now > said:
@@ -138,7 +138,7 @@ def _wait(rd, controls, started, number, until):
             waited = f"frame {number}" if presents else "the program to present a picture"
             print(f"record: waiting for {waited} ({now - begun:.0f} s)", file=sys.stderr)
         time.sleep(0.02)
-    raise SystemExit(f"record: no frame within {LONGEST_S} s" + ("" if presents else ": the program presents nothing that RenderDoc sees (a core profile of "
+    raise SystemExit(f"record: no frame within {longest_s:g} s" + ("" if presents else ": the program presents nothing that RenderDoc sees (a core profile of "
                                                                  "OpenGL, Vulkan or Direct3D)"))
 
 
@@ -163,7 +163,7 @@ def _record_page(given):
 
     programs.end_on_signals()
     try:
-        recording.record(given.page, given.output, given.size, given.wait, lambda line: print(line, flush=True))
+        recording.record(given.page, given.output, given.size, given.wait or LONGEST_OF_PAGES_S, lambda line: print(line, flush=True))
     except PageError as error:
         print(f"error: {error}", flush=True)
         return error.code
@@ -179,7 +179,8 @@ def main():
     parser.add_argument("--frame", type=int, default=12, metavar="N", help="which frame, counted from the program's start, or the next that can be had [default 12]")
     parser.add_argument("--page", metavar="URL", help="a page of your own, by its address or file, in place of a program: the first frame with shadows")
     parser.add_argument("--size", type=_size, default=(960, 540), metavar="WxH", help="the page's window [default 960x540]")
-    parser.add_argument("--wait", type=float, default=120, metavar="S", help="seconds in which the page must draw shadows [default 120]")
+    parser.add_argument("--wait", type=float, metavar="S", help="seconds in which a page must draw shadows, or a program its frame [default "
+                        f"{LONGEST_OF_PAGES_S}, {LONGEST_S} of a program]")
     parser.add_argument("program", nargs="?")
     parser.add_argument("words", nargs=argparse.REMAINDER)
     given = parser.parse_args()
@@ -187,7 +188,7 @@ def main():
         parser.error("needs a program, or --page URL")
     if given.page:
         return _record_page(given)
-    record(given.program, given.words, given.frame, given.output)
+    record(given.program, given.words, given.frame, given.output, given.wait or LONGEST_S)
 
 
 if __name__ == "__main__":

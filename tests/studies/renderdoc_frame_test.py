@@ -417,7 +417,7 @@ class StandIns(unittest.TestCase):
     def test_distances_are_written_after_what_the_original_leaves(self):
         original = "#version 330\nvoid main() { discard; }"
         for nearest, formula in ((0.0, "gl_FragDepth = 1.0 - 0.25 * gl_FragCoord.w;"), (1.0, "gl_FragDepth = 0.25 * gl_FragCoord.w;")):
-            text = stand_ins.glsl(stand_ins.Source(True, False, nearest, near=0.25, original=original))
+            text = stand_ins.glsl(stand_ins.Source(True, False, nearest=nearest, near=0.25, original=original))
             self.assertIn(f"void main() {{ drawn_otherwise(); {formula} }}", text)
             self.assertIn("#define main drawn_otherwise\nvoid main() { discard; }", text)
         ops = lambda **more: [op for op, _ in spirv._instructions(stand_ins.spir_v(stand_ins.Source(True, False, **more)))]

@@ -6,7 +6,7 @@ lies in the light's part of the map, and not on the line z/w = za + zb / w of an
 where a constant of the original shader says so, which then goes on below the stand-in.
 """
 import re
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 from . import spirv
 from .apart import Constant
@@ -19,6 +19,7 @@ ON_LINE = 2e-6
 class Source:
     fragment: bool  # which of both shaders it stands in for
     full: bool  # whether the map becomes full, or empty
+    _: KW_ONLY
     nearest: float = 0.0  # what a texel stores of the nearest thing: 0, or 1 where depths are reversed
     lines: tuple = ()  # (za, zb) of projections that are left alone; (None, None) of parallel ones
     minus_one: bool = False  # whether z/w runs from -1

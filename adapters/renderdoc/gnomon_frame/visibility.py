@@ -53,8 +53,9 @@ def _plan(frame, passes, layers, lens, others):
         like_camera = of_camera and any(apart.are_one(apart.line(layer), apart.lens_line(lens)) for layer in layers)
         lines = ([apart.lens_line(lens)] if of_camera and not like_camera else []) + apart.lines_of_others(layers, others, shared)
         original, told = _told_by_a_constant(frame, layers, of_camera, event) if like_camera else ("", None)
-        plan[shaders[stage], stage] = Source(stage == fragment, False, 1.0 if layers[0].state.reversed else 0.0, tuple(dict.fromkeys(lines)), minus_one,
-                                             rects if shared else (), not frame.textures[passes.texture].is_depth, original, told)
+        plan[shaders[stage], stage] = Source(stage == fragment, False, nearest=1.0 if layers[0].state.reversed else 0.0, lines=tuple(dict.fromkeys(lines)),
+                                             minus_one=minus_one, rects=rects if shared else (), colour=not frame.textures[passes.texture].is_depth,
+                                             original=original, told=told)
     return plan
 
 
@@ -149,7 +150,7 @@ def distances(frame, found):
     best = None
     # What a draw leaves out is left out, too, where its own shader can go before: where that shows much less than was drawn it did not work.
     for original in (frame.glsl, lambda _: ""):
-        plan = {(frame.state(d.event).shaders[fragment], fragment): Source(True, False, nearest, near=near, original=original(d.event)) for d in draws}
+        plan = {(frame.state(d.event).shaders[fragment], fragment): Source(True, False, nearest=nearest, near=near, original=original(d.event)) for d in draws}
         with frame.replaced(plan):
             frame.go_to(passes.readers[-1].event, again=True)
             depth = passes.cut(frame.picture(passes.camera_depth))[..., 0]

@@ -35,7 +35,7 @@ class Target:
 
     def _connect(self):
         for ident in list(_targets()):
-            control = rd.CreateTargetControl("", ident, "gnomon", True)
+            control = rd.CreateTargetControl("", ident, "gnomon", False)  # one that another recorder speaks with is let alone
             if control and _is_below(control.GetPID(), self._parent):
                 self._control = control
                 return
@@ -54,7 +54,8 @@ class Target:
             self._draws = True
         elif message.type == rd.TargetControlMessageType.NewCapture:
             return message.newCapture.path
-        elif message.type == rd.TargetControlMessageType.Disconnected:
+        elif message.type in (rd.TargetControlMessageType.Disconnected, rd.TargetControlMessageType.Busy):
+            self._control.Shutdown()
             self._control, self._draws = None, False
         elif message.type == rd.TargetControlMessageType.Noop:
             time.sleep(0.02)
