@@ -372,6 +372,9 @@ struct LightComparison : LightFigures, LightLists, LightImages {
   Times classify;
 };
 
+/// Makes unknown (NaN) what is counted in texels, where there is no map, or it is not known.
+void forget_texels(LightComparison& light);
+
 /// A smaller error has no label: not even a picture of eight bits shows it.
 inline constexpr float least_labelled_error = 1.0f / 255.0f;
 /// Whether what is drawn is off enough to be charged to a cause.
@@ -407,6 +410,17 @@ struct TriedSetting {
   std::vector<LightFigures> lights;  ///< as RasterFrame::lights; pixels, error and edges alone
 };
 
+inline constexpr std::string_view rates_schema = "gnomon/rates/1";
+
+/// What a machine does in a second, as a person measured it or looked it up; 0: not given.
+struct Rates {
+  std::string name, source;
+  double texels = 0.0;   ///< of a depth map, drawn
+  double lookups = 0.0;  ///< of a map, compared
+  double rays = 0.0;     ///< to a light, traced
+  double taps = 0.0;     ///< of a denoiser, read
+};
+
 struct Comparison {
   const World* world = nullptr;
   /// Another renderer's picture and map stand in `raster` (compare/result/judged.h); null: Gnomon's own.
@@ -425,6 +439,7 @@ struct Comparison {
   std::vector<TriedSetting> tried;  ///< empty where nothing was worth a drawing, and where none was made
   ViewErrors views;
   const Figure* measure = &wrong_and_mean();  ///< what errors are counted in, where the user chose
+  std::optional<Rates> rates;                 ///< of a machine that is not here
   std::optional<Threshold> fail_above;        ///< what the errors were held against
   double exposure = 1.0;                      ///< linear factor applied to both pictures before sRGB encoding
   double load_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;

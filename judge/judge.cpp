@@ -212,15 +212,6 @@ double biased_is_drawn(const compare::LightComparison& light) {
   return count > 0 ? static_cast<double>(same) / static_cast<double>(count) : 1.0;
 }
 
-/// Lengths in texels of a map that is not known.
-void forget_texels(compare::LightComparison& light) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  light.texel_world.fill(unknown);
-  light.bias_texel_world = unknown;
-  light.edges.mean_texels = light.edges.rms_texels = light.edges.mean_absolute_texels = unknown;
-  light.theory = {};
-}
-
 Judged describe_capture(const Capture& capture, const compare::TunedEngine* engine) {
   Judged judged;
   if (engine == nullptr) engine = compare::engine_of_renderer(capture.renderer);
@@ -306,7 +297,7 @@ void finish(Judging& in, Comparison& out) {
     judged->cure = traced_advice(found, light);
   }
   if (!in.doubt.empty()) judged->notes.push_back(in.doubt);
-  if (!judged->has_map) forget_texels(light);
+  if (!judged->has_map) compare::forget_texels(light);
   out.judged = std::move(judged);
 }
 

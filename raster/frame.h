@@ -182,6 +182,8 @@ struct RasterFrame {
 
   /// Tells for all lights whether their maps are known: another renderer's picture is of one light.
   bool has_known_map() const { return lights.empty() || lights.front().has_known_map(); }
+  /// There are texels to measure with: the map is known, and the technique has one.
+  bool has_map() const;
 };
 
 }  // namespace gnomon::raster

@@ -1,5 +1,7 @@
 #include "raster/technique_traits.h"
 
+#include "raster/frame.h"
+
 namespace gnomon::raster {
 
 // Each in the file of its pass, those without one in passes/technique.cpp.
@@ -109,6 +111,10 @@ std::span<const TechniqueTraits> all_technique_traits() {
 
 const TechniqueTraits& traits_of(Technique technique) {
   return techniques[static_cast<std::size_t>(technique)];
+}
+
+bool RasterFrame::has_map() const {
+  return has_known_map() && traits_of(options.map.technique).contents != MapContents::nothing;
 }
 
 std::span<const FilterKernelTraits> all_filter_kernel_traits() {

@@ -63,7 +63,7 @@ std::string map_words(const Comparison& c) {
 
 Json depth_facts(const PageInput& in, std::size_t index) {
   const Comparison& c = in.comparison;
-  if (!c.raster.has_known_map() || raster::samples_rays(c.raster.options.map.technique)) return nullptr;
+  if (!c.raster.has_map()) return nullptr;
   const LightView& view = compare::drawn_record(c, c.lights[index]).map.view;
   return {{"near", view.depth_range().min},
           {"far", view.depth_range().max},
@@ -124,10 +124,10 @@ Json rung_facts(compare::Ladder ladder) {
   return list;
 }
 
-Json situation_facts() {
+Json situation_facts(bool has_map) {
   Json list = Json::array();
   for (const compare::ShadowSituation& one : compare::shadow_situations())
-    list.push_back({{"key", one.key}, {"words", one.words}, {"made", one.made}});
+    list.push_back({{"key", one.key}, {"words", one.words}, {"made", has_map ? one.made : one.made_of_rays}});
   return list;
 }
 
@@ -144,7 +144,7 @@ Json report_facts(const PageInput& in) {
              {"reduced", reduced_words(c)},
              {"peak_memory_bytes", c.peak_memory_bytes},
              {"software_note", compare::software_note},
-             {"shadow_situations", situation_facts()},
+             {"shadow_situations", situation_facts(!raster::samples_rays(c.raster.options.map.technique))},
              {"light_facts", std::move(lights)}};
   if (c.judged) facts["judged"] = compare::judged_lines(c);
   if (in.introduction != nullptr) facts["tune"] = Json::parse(in.introduction->facts);

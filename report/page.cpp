@@ -61,7 +61,7 @@ class Pictures {
     add(name("edges"), of.edges,
         "Bands between drawn and true shadow edges, coloured by their width and side.");
     add(name("detachment"), of.detachment, "Gaps between casters and their shadows, brighter where wider.");
-    if (in_.comparison.raster.has_known_map())
+    if (in_.comparison.raster.has_map())
       add(name("depth-map"), of.depth_map_small,
           "The depth map: near surfaces bright yellow, far ones dark purple.");
   }

@@ -44,7 +44,7 @@ nlohmann::ordered_json label_facts();
 /// V0 … V6, each with the step that leads to it.
 nlohmann::ordered_json rung_facts(compare::Ladder ladder);
 /// What has moved since the last frame, and what each side then makes for the shadows: key, words, made.
-nlohmann::ordered_json situation_facts();
+nlohmann::ordered_json situation_facts(bool has_map);
 /// Everything that the sections of the page ask for (page/src/report_document.ts: Facts).
 nlohmann::ordered_json report_facts(const PageInput& input);
 /// What the page leaves out of a picture with more pixels than it has room for; empty where it has them all.

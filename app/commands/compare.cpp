@@ -25,6 +25,7 @@
 #include "app/strongest_lights.h"
 #include "compare/advice/tried.h"
 #include "compare/measure/reduced.h"
+#include "compare/result/estimate.h"
 #include "compare/result/figures.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/places.h"
@@ -46,6 +47,8 @@ struct CompareCommand : RunOptions {
   ResultOutput output;
   SettingOptions setting;
   std::string shader_folder;
+  std::string rates_file;
+  std::optional<compare::Rates> rates;
   std::optional<int> runs;
   bool timed_as_judged = false;
   int max_lights = usual_max_lights;
@@ -188,6 +191,7 @@ Expected<Compared> render_and_compare(CompareCommand& command, const LoadedScene
   comparison.seed = command.seed;
   comparison.machine = machine_info();
   comparison.fail_above = command.output.fail_above;
+  comparison.rates = command.rates;
   comparison.load_ms = loaded.load_ms;
   comparison.peak_memory_bytes = peak_memory_bytes();
   return compared;
@@ -301,6 +305,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   files.reads(command.scene);
   files.reads(path_file(command.path));
   files.reads_shaders(command.shader_folder);
+  files.reads(command.rates_file);
   files.writes("--trace", command.trace);
   const auto is_given = [&](std::string_view option) {
     return std::ranges::count(command.given, option) > 0;
@@ -308,6 +313,11 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (const auto fine = check_views(command.views, command.camera, command.path, false, is_given); !fine)
     return fail(fine.error());
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
+  if (!command.rates_file.empty()) {
+    auto rates = compare::read_rates(command.rates_file);
+    if (!rates) return fail(rates.error());
+    command.rates = std::move(*rates);
+  }
   auto loaded = load(command.scene, files, console, command.tessellate, command.camera,
                      follows_path(command.path), true, command.views.by_cameras());
   if (!loaded) return fail(loaded.error());
@@ -359,6 +369,13 @@ void add_options(CLI::App& app, CompareCommand& command) {
       "time shading with all that is recorded of it, so that nothing in a shader of --shader-dir tells "
       "a timed drawing from a judged one; in software in processor time; without shadow cost [default "
       "off]");
+  add_value(app, "--rates", "FILE",
+            "estimate what the shadows take on another machine, from what was counted and this file's rates "
+            "(docs/rates.md) [default none]",
+            [&command](const std::string& file) -> Expected<void> {
+              command.rates_file = file;
+              return {};
+            });
   app.add_flag("--no-report", command.output.no_report,
                "write no report.html and spend no time on it; all other files as ever [default off]");
   add_result_limits(app, command.output);

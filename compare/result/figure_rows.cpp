@@ -319,7 +319,10 @@ constexpr Figure rows[] = {
 
     {"edges.count", "edges", "pixel pairs across true shadow edges that were measured",
      at<edges, &EdgeStats::edges>(), neither, sum},
-    {"edges.mean_texels", "texels", "signed; positive where the drawn shadow is larger",
+    {"edges.mean_texels", "texels",
+     "signed; positive where the drawn shadow is larger; the three are null without a map, and where the "
+     "pictures differ but no "
+     "edge was found in both",
      or_null(with_sign(at<edges, &EdgeStats::mean_texels>()))},
     {.key = "edges.rms_texels",
      .unit = "texels",

@@ -64,6 +64,7 @@ std::string figure_head(const Figure& figure) {
 }
 
 std::string figure_text(const Figure& figure, double value) {
+  if (!std::isfinite(value)) return "unknown";
   if (figure.form() == FigureForm::count) return grouped(static_cast<std::uint64_t>(value));
   if (figure.form() == FigureForm::percent) return percent(value);
   return figure.unit == "texels" ? texels_text(value) : plain_number(value);

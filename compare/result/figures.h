@@ -4,6 +4,7 @@
 // from their lines and show. A new figure is a field of LightFigures and a row in figure_rows.cpp.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -91,6 +92,10 @@ std::string figure_name(const Figure& figure);
 std::string measure_words(const Figure& measure);
 /// A table's head: "edge error, texels".
 std::string figure_head(const Figure& figure);
+/// The value as settings are ranked by it: what is not known comes last.
+inline double ranked(double value) {
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
 /// In running text, with texels as its unit: "4.1 %", "1.6 texels".
 std::string figure_text(const Figure& figure, double value);
 

@@ -101,7 +101,7 @@ Json camera_json(const Comparison& c) {
 
 Json windows_json(const Comparison& c, const LightComparison& light) {
   Json windows = Json::array();
-  if (!c.raster.has_known_map()) return windows;
+  if (!c.raster.has_map()) return windows;
   const LightView& view = drawn_record(c, light).map.view;
   for (int face = 0; face < view.face_count; ++face) {
     Json corners = Json::array();
@@ -112,7 +112,7 @@ Json windows_json(const Comparison& c, const LightComparison& light) {
 }
 
 std::string window_words(const Comparison& c, const LightComparison& light) {
-  if (!c.raster.has_known_map() || c.world == nullptr) return {};
+  if (!c.raster.has_map() || c.world == nullptr) return {};
   const LightView& view = drawn_record(c, light).map.view;
   const bool parallel = view.projection == LightProjection::orthographic;
   return joined_sentences(

@@ -77,7 +77,7 @@ void Jobs::add_maps(std::size_t i, LightPictures& out) {
   out.depth_map_small.file_name = "depth-map-small" + suffix + ".png";
   out.depth_map_step = step_for_width(map, folder_width);
   out.depth_map_small_step = step_for_width(map, page_width);
-  if (!c_.raster.has_known_map()) return;
+  if (!c_.raster.has_map()) return;
   const auto add_step = [&](EncodedPicture& target, int step) {
     list_.push_back({&target, i, {}, [&map, step](const Part&) {
                        return step == 1 ? depth_map_picture(map) : depth_map_picture(reduced_map(map, step));
@@ -100,7 +100,7 @@ void Jobs::add_light(std::size_t i, LightPictures& out) {
   if (stored ? !stored->decisions.empty() : external && !external->decision.data.empty())
     add(out.decisions, "decisions" + end, i, {.raster = true, .decisions = true},
         [](const Part& part) { return decision_picture(part.comparison, part.light); });
-  if (stored ? !stored->edges.empty() : !light.edge_map.data.empty()) {
+  if (c_.raster.has_map() && (stored ? !stored->edges.empty() : !light.edge_map.data.empty())) {
     add(out.edges, "edge-displacement" + end, i, {.visibility = true, .edges = true}, of_light(edge_picture));
     add(out.detachment, "detachment" + end, i, {.detachment = true}, of_light(detachment_picture));
   }

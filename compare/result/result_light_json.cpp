@@ -5,6 +5,7 @@
 #include "compare/ladder/filter_probe.h"
 #include "compare/ladder/labels.h"
 #include "compare/result/engine_units.h"
+#include "compare/result/estimate.h"
 #include "compare/result/judged.h"
 #include "compare/result/map_words.h"
 #include "compare/result/option_names.h"
@@ -139,10 +140,10 @@ Json bias_json(const Comparison& c, const LightComparison& light) {
   if (!drawn) given.bias = raster::Bias{};
   const auto if_drawn = [drawn](double value) { return drawn ? number(value) : Json(nullptr); };
   Json json{{"constant_world", if_drawn(record.bias_constant_world)},
-            {"constant_texels", if_drawn(record.bias_constant_world / record.texel_world)},
+            {"constant_texels", if_drawn(record.bias_constant_world / light.bias_texel_world)},
             {"unit", bias_unit_name(map.bias.unit)},
             {"caster_constant_world", drawn ? number(record.caster_constant_world) : Json(0.0)},
-            {"texel_world", number(record.texel_world)},
+            {"texel_world", number(light.bias_texel_world)},
             {"scales_with_texel", raster::scales_bias(map)}};
   for (const raster::MapSetting& setting : raster::map_settings()) {
     if (setting.group != raster::SettingGroup::bias) continue;
@@ -167,7 +168,7 @@ Json window_json(const Comparison& c, const LightComparison& light) {
   const LightView& view = drawn_record(c, light).map.view;
   const LightFace& face = view.face(0);
   const raster::MapOptions& map = c.raster.options.map;
-  if (!c.raster.has_known_map() || view.face_count > 1 || face.warp != 0.0) return nullptr;
+  if (!c.raster.has_map() || view.face_count > 1 || face.warp != 0.0) return nullptr;
   const bool parallel = view.projection == LightProjection::orthographic;
   Json json{{"width", parallel ? number(2.0 * face.half_extent.x) : Json(nullptr)},
             {"height", parallel ? number(2.0 * face.half_extent.y) : Json(nullptr)},
@@ -191,27 +192,36 @@ Json window_json(const Comparison& c, const LightComparison& light) {
 Json map_json(const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& record = drawn_record(c, light);
   const raster::MapOptions& map = c.raster.options.map;
-  const bool known = c.raster.has_known_map();
-  Json json{{"technique", drawn_technique(c)},
-            {"size", known ? Json(record.map.view.size) : Json(nullptr)},
-            {"inferred", c.judged && c.judged->identified.has_value()},
-            {"faces", record.map.view.face_count},
-            {"depth_format", record.foreign ? Json(nullptr) : Json(depth_format_name(record.map.format))},
-            {"stores", known ? Json(record.foreign ? stored_text(record) : "depths") : Json(nullptr)},
-            {"cull", cull_name(map.cull)},
-            {"bias", bias_json(c, light)},
-            {"custom_shader", custom_shader_json(c.raster)},
-            {"snap", map.snap},
-            {"window", window_json(c, light)},
-            {"cascades", cascades_json(map, record.map.view)},
-            {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
-            {"filter", filter_json(c.raster)},
-            {"texel_world", block_json("map.texel_world", light)}};
+  const bool known = c.raster.has_map();
+  Json json{
+      {"technique", drawn_technique(c)},
+      {"size", known ? Json(record.map.view.size) : Json(nullptr)},
+      {"inferred", c.judged && c.judged->identified.has_value()},
+      {"faces", raster::samples_rays(map.technique) ? Json(nullptr) : Json(record.map.view.face_count)},
+      {"depth_format", record.foreign || !known ? Json(nullptr) : Json(depth_format_name(record.map.format))},
+      {"stores", known ? Json(record.foreign ? stored_text(record) : "depths") : Json(nullptr)},
+      {"cull", cull_name(map.cull)},
+      {"bias", bias_json(c, light)},
+      {"custom_shader", custom_shader_json(c.raster)},
+      {"snap", map.snap},
+      {"window", window_json(c, light)},
+      {"cascades", cascades_json(map, record.map.view)},
+      {"warp", number(record.map.view.face(0).warp * record.map.view.face(0).half_extent.y)},
+      {"filter", filter_json(c.raster)},
+      {"texel_world", block_json("map.texel_world", light)}};
   if (record.external && raster::samples_rays(map.technique))
     json["rays"] = rays_json(map, *record.external);
   else if (record.external)
     json["hybrid"] = hybrid_json(*record.external);
   return json;
+}
+
+Json estimate_json(const Comparison& c, const LightComparison& light) {
+  const auto sides = [&](bool map_is_drawn) {
+    const EstimatedSides ms = estimated_sides(c, light, map_is_drawn);
+    return Json{{"map_ms", number(ms.map)}, {"rays_ms", number(ms.rays)}};
+  };
+  return {{"rates", c.rates->name}, {"nothing_moves", sides(false)}, {"light_moves", sides(true)}};
 }
 
 Json budget_json(const Comparison& c, const LightComparison& light) {
@@ -417,6 +427,7 @@ Json light_block(const Comparison& c, const LightComparison& light, bool full) {
     block["soft_shadow_rays"] = truth.soft_rays;
     block["soft_shadow_rays_asked"] = truth.soft_rays_asked;
   }
+  if (c.rates) block["estimate"] = estimate_json(c, light);
   return block;
 }
 

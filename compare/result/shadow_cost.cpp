@@ -52,10 +52,12 @@ TimeDifference sum_of(TimeDifference a, const TimeDifference& b) {
 }
 
 constexpr std::array situations{
-    ShadowSituation{"nothing_moves", "nothing moves", "the map looked up; rays", &ShadowCosts::nothing_moves},
+    ShadowSituation{"nothing_moves", "nothing moves", "the map looked up; rays",
+                    "few rays cast and denoised; rays", &ShadowCosts::nothing_moves},
     ShadowSituation{"light_moves", "light or camera moves", "the map drawn and looked up; rays",
-                    &ShadowCosts::light_moves},
+                    "few rays cast and denoised; rays", &ShadowCosts::light_moves},
     ShadowSituation{"casters_move", "casters move", "the map drawn and looked up; the tree built, rays",
+                    "the tree built, few rays cast and denoised; the tree built, rays",
                     &ShadowCosts::casters_move}};
 
 }  // namespace

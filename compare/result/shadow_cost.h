@@ -33,9 +33,10 @@ std::optional<ShadowCosts> shadow_costs(const ShadowParts& parts);
 
 /// A row of what has moved, and what each side then makes.
 struct ShadowSituation {
-  std::string_view key;    ///< of figures and JSON: "casters_move"
-  std::string_view words;  ///< "casters move"
-  std::string_view made;   ///< "map drawn and looked up; tree built, rays"
+  std::string_view key;           ///< of figures and JSON: "casters_move"
+  std::string_view words;         ///< "casters move"
+  std::string_view made;          ///< "map drawn and looked up; tree built, rays"
+  std::string_view made_of_rays;  ///< the same where few rays are in the map's place
   ShadowCosts::Sides ShadowCosts::*sides;
 };
 std::span<const ShadowSituation> shadow_situations();

@@ -41,7 +41,7 @@ std::string map_line(const Comparison& c, const LightComparison& light) {
 std::string window_line(const Comparison& c, const LightComparison& light) {
   const LightView& view = drawn_record(c, light).map.view;
   const LightFace& face = view.face(0);
-  if (!c.raster.has_known_map() || view.projection != LightProjection::orthographic || view.face_count > 1)
+  if (!c.raster.has_map() || view.projection != LightProjection::orthographic || view.face_count > 1)
     return {};
   if (face.warp != 0.0 || !compares_depths(c.raster.options.map.technique)) return {};
   const Vec3 origin = face_origin(view, face);
@@ -234,8 +234,7 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
     if (light.seams) page.field("seams", seams_line(*light.seams, drawn_record(c, light).map.view));
     add_bleeding(page, c, light);
     if (light.penumbra) add_penumbra(page, *light.penumbra, true_record(c, light).samples);
-    if (c.raster.has_known_map() && !raster::samples_rays(c.raster.options.map.technique))
-      add_theory(page, light.theory);
+    if (c.raster.has_map()) add_theory(page, light.theory);
     if (!light.bias_curve_withheld.empty()) page.field("bias", light.bias_curve_withheld);
   }
   if (const std::string line = terminator_line(light.terminator); !line.empty()) page.field("facets", line);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compare/result/estimate.h"
 #include "compare/result/number_text.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/outputs.h"
@@ -30,17 +31,20 @@ void add_shadow_costs(SummaryPage& page, std::string_view name, const Comparison
   if (!costs) return;
   for (const std::string& line : shadow_cost_lines(*costs, parts.by))
     page.field(std::exchange(name, ""), line);
+  std::string_view estimate = "estimate";
+  for (const std::string& line : estimate_lines(c, light)) page.field(std::exchange(estimate, ""), line);
 }
 
 // What does not depend on the machine.
 std::string work_line(const Comparison& c, const LightComparison& light) {
   const raytrace::LightTruth& truth = true_record(c, light);
-  std::string text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
+  std::string text;
+  if (c.raster.has_map()) text = counted(drawn_record(c, light).map_texels, "texel") + " drawn";
   if (light.lookups)
     text += fmt::format(", {} looked up ({} a pixel)", grouped(*light.lookups),
                         plain_number(static_cast<double>(*light.lookups) /
                                      static_cast<double>(std::max<std::uint64_t>(light.pixels.compared, 1))));
-  text += "; " + counted(truth.exact_rays(), "ray");
+  text += (text.empty() ? "" : "; ") + counted(truth.exact_rays(), "ray");
   const RayWork& work = light.ray_work;
   if (work.rays > 0)
     text += fmt::format(", {} boxes and {} primitives tested for one (of {} through the tree)",
@@ -58,7 +62,7 @@ std::string median_text(const Times& t) {
 
 void add_times(SummaryPage& page, const Comparison& c, const LightComparison& light) {
   const raster::LightRecord& drawn = drawn_record(c, light);
-  const bool without_map = raster::samples_rays(c.raster.options.map.technique);
+  const bool without_map = !c.raster.has_map();
   if (!c.judged)
     page.field("time", without_map ? fmt::format("{} to shade the picture with its few rays",
                                                  median_text(drawn.shade_pass))

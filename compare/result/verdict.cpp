@@ -75,12 +75,24 @@ std::string fractional_part(const LightComparison& light) {
                                             : left_text(light.error.wrong_fraction, light, wrong_and_mean()));
 }
 
-std::string uncertain_part(const PixelCounts& p) {
+/// The middle of penumbras is left out with few samples, and with it the largest soft errors.
+bool hides_soft_errors(const LightFigures& light) {
+  constexpr std::uint64_t noticed = 5;  // the least share that changes what is said: one of so many
+  const std::uint64_t left_out = light.pixels.uncertain_by_samples;
+  return left_out > 0 && noticed * left_out >= left_out + light.error.fractional;
+}
+
+std::string uncertain_part(const LightFigures& light) {
+  const PixelCounts& p = light.pixels;
   if (p.uncertain == 0) return {};
   return fmt::format(
-      "{} more ({}) {} uncertain: the truth there lies within its own error bound.", grouped(p.uncertain),
+      "{} more ({}) {} uncertain: the truth there lies within its own error bound.{}", grouped(p.uncertain),
       percent(static_cast<double>(p.uncertain) / static_cast<double>(p.compared + p.uncertain)),
-      p.uncertain == 1 ? "is" : "are");
+      p.uncertain == 1 ? "is" : "are",
+      hides_soft_errors(light)
+          ? " With so few samples the middle of penumbras is left out, where soft errors are "
+            "largest: use more --samples."
+          : "");
 }
 
 /// "Shadow error: mean FLIP 0.078; 4.7 % of the pixels wrong, mostly aliasing."
@@ -219,7 +231,7 @@ std::string Verdict::whole() const {
 Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0)
     return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
-  const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light.pixels);
+  const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light);
   if (c.judged) return {error, judged_advice(*c.judged, light, *c.measure), uncertain, uncertain};
   const BiasAdvice bias = advised_bias(c, light);
   const bool told = counts_biases(light, *c.measure) || !c.tried.empty() || c.measure == find_measure("mean");

@@ -296,7 +296,7 @@ nlohmann::ordered_json light_data(const PageInput& in, std::size_t index, Packer
   return {
       {"name", shown_light_name(c, index)},
       {"view", view_json(record.map.view)},
-      {"map_known", c.raster.has_known_map()},
+      {"map_known", c.raster.has_map()},
       {"technique", compare::drawn_technique(c)},
       {"gaps_decide", compare::biases_follow_from_gaps(c.raster)},
       {"compares_depths", compare::compares_depths(c)},

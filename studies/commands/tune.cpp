@@ -245,17 +245,15 @@ Expected<ExitCode> tune_and_answer(const TuneCommand& command, Bench& bench, con
   bench.options.quick = command.quick;
   bench.options.found = [&](const studies::TuneFamily& family, const studies::Attempt& answer,
                             std::uint64_t renders) {
-    console.message(fmt::format("good enough after {}: {}, {}, {}", compare::counted(renders, "drawing"),
-                                family.name, compare::with_noun(std::to_string(answer.size), "texel"),
-                                compare::milliseconds(answer.time_ms)));
+    console.message(fmt::format("good enough after {}: {}, {}", compare::counted(renders, "drawing"),
+                                family.at_size(answer.size), compare::milliseconds(answer.time_ms)));
   };
-  const auto result = studies::tune(
-      engine, bench.setting, bench.options,
-      [&](const studies::TuneFamily& family, int size, std::uint64_t renders) {
-        const double share = double(renders) / double(3 * bench.families.size() + 1);
-        console.progress(
-            fmt::format("{}, {}", family.name, compare::with_noun(std::to_string(size), "texel")), share);
-      });
+  const auto result = studies::tune(engine, bench.setting, bench.options,
+                                    [&](const studies::TuneFamily& family, int size, std::uint64_t renders) {
+                                      const double share =
+                                          double(renders) / double(3 * bench.families.size() + 1);
+                                      console.progress(family.at_size(size), share);
+                                    });
   if (!result) return fail(result.error());
   const auto shaders = raster::ShaderFolder::read(command.shader_folder);
   if (!shaders) return fail(shaders.error());

@@ -195,8 +195,7 @@ std::string error_head(const compare::Figure& measure) {
 
 std::string row_text(const studies::FamilyResult& family, const studies::TuneGoal& goal) {
   const studies::Attempt& a = family.attempt();
-  const std::string size =
-      raster::reads_setting(family.family.map, "map-size") ? std::to_string(a.size) : "-";
+  const std::string size = family.family.has_map() ? std::to_string(a.size) : "-";
   return fmt::format("  {:<34} {:>6} {:>10} {:>10}  {}\n", family.family.name, size,
                      compare::milliseconds(a.time_ms), compare::byte_count(a.map_bytes),
                      compare::figure_words(a.figures, goal.measure()));

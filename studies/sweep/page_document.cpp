@@ -136,7 +136,7 @@ std::string sweep_document(const SweepPageInput& in) {
               {"columns", columns_json(in.cells.front())},
               {"headline", headline_json(sweep_headline(in.cells, front, in.limit))},
               {"front", std::move(best)},
-              {"situations", report::situation_facts()},
+              {"situations", report::situation_facts(true)},
               {"load", load_range(in.cells)},
               {"rays", Json::parse(ray_points_json(in.rays)).at("points")},
               {"reference_samples", reference_samples},

@@ -41,7 +41,8 @@ struct CellSummary {
   bool derived = false;  ///< the times are those of the drawing that it was made from
   /// In measure(): by default the share of wrong pixels or the mean error, whichever is more, which are equal of yes-or-no
   /// shadows. With films what they are about: flips per receiver and second.
-  double error() const { return measure().of(figures); }
+  /// Of what the measure is about; infinite where that is not known, so that it comes last.
+  double error() const { return compare::ranked(measure().of(figures)); }
   bool is_filmed() const { return figures.shimmer.has_value(); }
   const compare::Figure& measure() const { return is_filmed() ? *compare::find_measure("shimmer") : *asked; }
 };

@@ -13,9 +13,11 @@ namespace {
 
 using compare::Figure;
 
-std::string setting_text(const Attempt& a, const Figure& measure) {
-  return fmt::format("{} in {} with {}{}", compare::figure_words(a.figures, measure),
-                     compare::milliseconds(a.time_ms), compare::with_noun(std::to_string(a.size), "texel"),
+std::string setting_text(const TuneFamily& family, const Attempt& a, const Figure& measure) {
+  const std::string with =
+      family.has_map() ? " with " + compare::with_noun(std::to_string(a.size), "texel") : std::string();
+  return fmt::format("{} in {}{}{}", compare::figure_words(a.figures, measure),
+                     compare::milliseconds(a.time_ms), with,
                      a.custom_shader ? ", by the shader of --shader-dir" : "");
 }
 
@@ -46,7 +48,7 @@ std::string just_over_text(const TuneResult& result, const Figure& measure) {
   std::string text;
   for (const JustOver& over : result.just_over)
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", result.families[over.family].family.name,
-                        setting_text(over.attempt, measure));
+                        setting_text(result.families[over.family].family, over.attempt, measure));
   return text.empty()
              ? text
              : "; more accurate, but longer than the limit by no more than one time may be off: " + text;
@@ -81,7 +83,7 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
   const bool by_error = options_.goal.max_error.has_value();
   const Figure& measure = options_.goal.measure();
   if (!loser.answer) {
-    const std::string nearest = setting_text(loser.closest, measure);
+    const std::string nearest = setting_text(loser.family, loser.closest, measure);
     if (loser.stop == TuneStop::too_dear)
       return "slower before it is good enough: " + nearest + proof(loser, loser.closest, measure);
     if (loser.stop == TuneStop::levels_off)
@@ -96,11 +98,12 @@ std::string Tuner::reason(const FamilyResult& loser, const FamilyResult& winner)
     if (loser.stop == TuneStop::no_smaller)
       return fmt::format("needs at least the map of {}: {}{}", loser.like, nearest,
                          proof(loser, loser.closest, measure));
-    return (by_error ? "not good enough at any size: at best " : "too slow at any size: at best ") + nearest +
-           proof(loser, loser.closest, measure);
+    return fmt::format("{}{}: {}{}", by_error ? "not good enough" : "too slow",
+                       loser.family.has_map() ? " at any size: at best" : "", nearest,
+                       proof(loser, loser.closest, measure));
   }
   const Attempt& a = *loser.answer;
-  const std::string text = setting_text(a, measure);
+  const std::string text = setting_text(loser.family, a, measure);
   if (!winner.answer) return text;
   const bool close =
       std::find(winner.as_fast.begin(), winner.as_fast.end(), loser.family.name) != winner.as_fast.end();
@@ -126,10 +129,11 @@ void Tuner::explain(TuneResult& result) const {
       family.why = (options_.quick            ? "the first that is good enough, others may be cheaper: "
                     : options_.goal.max_error ? "the cheapest that is good enough: "
                                               : "the best that is cheap enough: ") +
-                   setting_text(*family.answer, measure) + doubtful_time(*family.answer, options_.goal) +
-                   close_race(family, options_.goal) + just_over_text(result, measure);
+                   setting_text(family.family, *family.answer, measure) +
+                   doubtful_time(*family.answer, options_.goal) + close_race(family, options_.goal) +
+                   just_over_text(result, measure);
     else
-      family.why = "comes nearest: " + setting_text(family.closest, measure) +
+      family.why = "comes nearest: " + setting_text(family.family, family.closest, measure) +
                    doubt(options_.goal.max_error, family.closest.lights) +
                    proof(family, family.closest, measure);
   }

@@ -39,7 +39,7 @@ Json family_json(const TunePageInput& in, std::size_t i) {
           {"technique", technique_name(family.family.map.technique)},
           {"why", family.why},
           {"command", in.commands[i]},
-          {"size", a.size},
+          {"size", family.family.has_map() ? Json(a.size) : Json(nullptr)},
           {"bias", reads_bias(family.family, a) ? Json(constant_words(a.bias)) : Json(nullptr)},
           {"words", compare::figure_words(a.figures, measure)},
           {"wrong_fraction", number(a.figures.error.wrong_fraction)},
@@ -63,7 +63,7 @@ void add_tried(const TunePageInput& in, std::size_t family, std::size_t place, J
     const Attempt& a = drawn.size == chosen.size ? chosen : drawn;
     if (!(a.time_ms > 0.0)) continue;
     list.push_back({{"family", place},
-                    {"size", a.size},
+                    {"size", result.family.has_map() ? Json(a.size) : Json(nullptr)},
                     {"error", number(a.error)},
                     {"time_ms", number(a.time_ms)},
                     {"words", compare::figure_words(a.figures, in.goal.measure())},

@@ -120,11 +120,16 @@ Json rows_json(const SheetCandidate& candidate, const Comparison& c, const compa
   const auto add = [&](const char* name, const std::string& text) {
     if (!text.empty()) rows.push_back({name, text});
   };
-  add("size", fmt::format("{} × {}", size, size));
+  const bool has_map = raster::reads_setting(candidate.setting.raster.map, "map-size");
+  if (has_map) add("size", fmt::format("{} × {}", size, size));
   add("error", error_text(light, measure));
   if (light.shimmer) add("flicker", flicker_text(*light.shimmer));
-  add("map", fmt::format("{}, {} drawn a frame (counted)", compare::byte_count(c.raster.map_bytes),
-                         compare::counted(c.raster.map_texels, "texel")));
+  if (has_map)
+    add("map", fmt::format("{}, {} drawn a frame (counted)", compare::byte_count(c.raster.map_bytes),
+                           compare::counted(c.raster.map_texels, "texel")));
+  else if (const auto& cast = c.raster.lights.front().external)
+    add("rays", fmt::format("{} cast and {} taken a frame (counted)", compare::counted(cast->rays, "ray"),
+                            compare::counted(cast->taps, "tap")));
   add("taps", taps_text(c));
   add("time here", time_text(c));
   return rows;

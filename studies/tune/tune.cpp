@@ -1,10 +1,13 @@
 #include "studies/tune/tune.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
 #include "compare/result/figures.h"
+#include "compare/result/number_text.h"
 #include "raster/technique_traits.h"
 #include "studies/tune/tuner.h"
 
@@ -26,6 +29,10 @@ constexpr double agreed = 0.8;
 constexpr int curve_points = 129;
 
 }  // namespace
+
+std::string TuneFamily::at_size(int texels) const {
+  return has_map() ? fmt::format("{}, {}", name, compare::with_noun(std::to_string(texels), "texel")) : name;
+}
 
 namespace {
 
@@ -112,7 +119,7 @@ void set_figures(const std::vector<compare::LightFigures>& lights, const compare
   attempt.lights = lights;
   attempt.error = 0.0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const double error = measure.of(lights[i]);
+    const double error = compare::ranked(measure.of(lights[i]));
     if (i == 0 || !(error <= attempt.error)) attempt.error = error, attempt.figures = lights[i];
   }
 }

@@ -27,6 +27,7 @@
 
 #include "compare/bias/bias_advice.h"
 #include "compare/result/engine_units.h"
+#include "raster/settings.h"
 #include "studies/sweep/engine.h"
 
 namespace gnomon::studies {
@@ -44,6 +45,10 @@ struct TuneFamily {
   std::string name;  ///< as people say it: "slope bias 1"
   raster::MapOptions map;
   bool keeps_bias = false;  ///< its constant stays as it is: an engine has none
+
+  bool has_map() const { return raster::reads_setting(map, "map-size"); }
+  /// "pcf, 512 texels"; the name alone where there is no map.
+  std::string at_size(int texels) const;
 };
 
 /// What a drawing costs; the milliseconds of map and shading where none is given. One that does not depend on

@@ -9,7 +9,7 @@ import { markup, type Markup } from "./template";
 export type BiasCurve = Pick<LightResult, "bias_curve" | "best_bias"> & {
   pixels: { compared: number };
   error: { wrong_fraction: number };
-  map: { bias: { constant_world: number | null; texel_world: number } };
+  map: { bias: { constant_world: number | null; texel_world: number | null } };
 };
 
 const width = 760,
@@ -132,7 +132,7 @@ export function biasChart(light: BiasCurve, id: string): Markup | null {
   }" data-from="${scale.from}" data-to="${scale.to}"><title id="${id}-title">Wrong pixels at every constant bias</title><desc id="${id}-desc">${description(light)}</desc>${feasibleInterval(
     best,
     scale,
-  )}${axes(scale, bias.texel_world)}${curves.map(
+  )}${axes(scale, bias.texel_world ?? 0)}${curves.map(
     ([kind, , share]) =>
       markup`<polyline class="curve ${kind}" points="${curve
         .map((p) => `${fixed(scale.x(p.bias))},${fixed(scale.y(share(p, compared)))}`)

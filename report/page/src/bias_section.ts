@@ -8,7 +8,7 @@ import { markup, scrollRegion, type Markup } from "./template";
 function biasWords({ best_bias: best, map: { bias } }: LightResult, i: number): Markup {
   const { contradiction, smaller } = facts.light_facts[i]!,
     key = `lights.${i}.best_bias`;
-  const inTexels = (world: number): string => (bias.texel_world > 0 ? ` (${texelsText(world / bias.texel_world)})` : "");
+  const inTexels = (world: number): string => (bias.texel_world ? ` (${texelsText(world / bias.texel_world)})` : "");
   return markup`A hard test shadows a pixel when its gap, the distance to the light minus the stored one${
     facts.bias_parts.length > 0 && " and the other parts of the bias"
   }, is

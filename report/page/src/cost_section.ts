@@ -26,13 +26,22 @@ function lightRows(light: LightResult, i: number): TimeRow[] {
     kind,
   });
   return [
+    ...(map.rays
+      ? []
+      : [
+          row(
+            "map_pass",
+            map.hybrid ? "sheets" : "depth map",
+            map.size === null ? "its map is not known" : counted(map.faces! * map.size ** 2, "texel"),
+            "raster" as const,
+          ),
+        ]),
     row(
-      "map_pass",
-      map.rays ? "few rays" : map.hybrid ? "sheets" : "depth map",
-      map.rays ? "nothing is kept for a light" : map.size === null ? "its map is not known" : counted(map.faces * map.size ** 2, "texel"),
+      "shade_pass",
+      "shading",
+      map.rays ? "the picture with its few rays and their denoiser" : "the picture with its shadow lookups",
       "raster",
     ),
-    row("shade_pass", "shading", "the picture with its shadow lookups", "raster"),
     ...(soft
       ? [
           row(
@@ -89,6 +98,19 @@ function shadowRows(light: LightResult, i: number): Markup | null {
         i,
         `${key}_map`,
       )}</td><td class="n">${shadowTime(light, i, `${key}_rays`)}</td></tr>\n`,
+  )}${estimateRows(light, i, name)}`;
+}
+
+// The same on a machine that is not here, by the rates of a file.
+function estimateRows({ estimate }: LightResult, i: number, name: string): Markup | null {
+  if (!estimate) return null;
+  const ms = (key: string): Markup => keyed(`lights.${i}.estimate.${key}`, (value) => milliseconds(value));
+  return markup`${(["nothing_moves", "light_moves"] as const).map(
+    (key) =>
+      markup`<tr><th scope="row">${name}${key === "nothing_moves" ? "nothing moves" : "light or camera moves"}<small>estimated from the counts, on ${estimate.rates}</small></th><td
+class="n">${estimate[key].map_ms === null ? "not known" : ms(`${key}.map_ms`)}</td><td class="n">${
+        estimate[key].rays_ms === null ? "not known" : ms(`${key}.rays_ms`)
+      }</td></tr>\n`,
   )}`;
 }
 
@@ -165,10 +187,10 @@ function workTable(): Markup {
   const { costs, lights } = result,
     row = (name: string, key: string): Markup => plainRow(name, keyedCount(`costs.${key}`));
   return markup`<table><caption>Work, the same on every machine</caption><tbody>
-${row("depth-map texels rendered", "map_texels")}${plainRow(
-    "depth-map memory",
-    keyed("costs.map_bytes", byteCount),
-  )}${row("primary rays", "primary_rays")}${row("shadow rays", "shadow_rays")}${
+${
+  lights.some(({ map }) => !map.rays) &&
+  markup`${row("depth-map texels rendered", "map_texels")}${plainRow("depth-map memory", keyed("costs.map_bytes", byteCount))}`
+}${row("primary rays", "primary_rays")}${row("shadow rays", "shadow_rays")}${
     costs.soft_shadow_rays_asked! > 0 &&
     markup`${row("rays to lights with size", "soft_shadow_rays")}${row("samples asked for", "soft_shadow_rays_asked")}`
   }${lights.map(

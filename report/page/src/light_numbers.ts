@@ -108,6 +108,14 @@ const fact = (name: string, value: Markup | string, what: Markup | string): Mark
 
 function edgeFacts({ edges }: LightResult, key: string): Markup | null {
   if (edges.count === 0) return null;
+  if (edges.rms_texels === null)
+    return fact(
+      "Edge error",
+      keyedThings(`${key}.edges.rms_pixels`, "pixel", plainNumber),
+      markup`root mean square on the screen over ${keyedThings(`${key}.edges.count`, "pixel")} on true edges; ${plain(
+        `${key}.edges.rms_world`,
+      )} world units`,
+    );
   return markup`${fact(
     "Edge error",
     keyedThings(`${key}.edges.rms_texels`, "texel", plainNumber),
@@ -252,7 +260,7 @@ ${
         "pixel",
       )}; ${plain(`${key}.bleeding.max`)} at most`,
     )
-  }${penumbraFacts(light, key)}${known && !light.map.rays && texelFact(light, key)}${known && !light.map.rays && theoryFacts(light, key)}${fact(
+  }${penumbraFacts(light, key)}${light.map.size !== null && texelFact(light, key)}${light.map.size !== null && theoryFacts(light, key)}${fact(
     "FLIP",
     plain(`${key}.error.flip`),
     markup`how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 entirely${alone("flip_compared")}`,
@@ -287,7 +295,7 @@ export function depthMapBlock({ map }: LightResult, i: number): Markup | null {
     `depth-scale-${i}`,
   )}<span>near ${plainNumber(near)}</span></span>
 Depth from the light in world units${perspective && ", on a logarithmic scale"}; dark grey where nothing is stored.${
-    map.faces > 1 && (perspective ? " Six faces: +x, −x, +y above −y, +z, −z." : " Each cascade's own map, the finest first.")
+    map.faces! > 1 && (perspective ? " Six faces: +x, −x, +y above −y, +z, −z." : " Each cascade's own map, the finest first.")
   }${
     step > 1 && ` One pixel shows the nearest of ${step} × ${step} texels.`
   }${!facts.compares_depths && " This technique does not read it: it is what a hard test would look up."}</figcaption></figure>

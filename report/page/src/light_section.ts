@@ -107,7 +107,7 @@ function where({ light: { position, direction } }: LightResult): string {
 function mapSize({ map: { size, inferred, faces, rays } }: LightResult): string {
   if (rays) return "few rays, no map";
   if (size === null) return "its map is not known";
-  return `${inferred ? "inferred " : ""}map of ${size}\u202f×\u202f${size}${faces > 1 ? `\u202f×\u202f${faces}` : ""} texels`;
+  return `${inferred ? "inferred " : ""}map of ${size}\u202f×\u202f${size}${faces! > 1 ? `\u202f×\u202f${faces}` : ""} texels`;
 }
 
 export function lightSection(light: LightResult, i: number): Markup {

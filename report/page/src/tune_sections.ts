@@ -10,7 +10,7 @@ interface Family {
   technique: string;
   why: string;
   command: string;
-  size: number;
+  size: number | null; // texels; null without a map
   bias: string | null; // in the unit that the command asks for it in; null: none is read
   words: string; // its figures
   wrong_fraction: number;
@@ -21,7 +21,7 @@ interface Family {
 
 interface Tried {
   family: number;
-  size: number;
+  size: number | null;
   error: number;
   time_ms: number;
   words: string;
@@ -59,11 +59,11 @@ export interface TuneFacts {
 
 function verdict({ wanted, feasible, max_error: byError, families: [winner] }: TuneFacts): string {
   const { name, size, bias, words, time_ms: time } = winner!;
-  const answer = `${name}, ${size} × ${size} texels${
+  const answer = `${name}${size === null ? "" : `, ${size} × ${size} texels`}${
     bias === null ? "" : `, bias ${bias}`
   }. Compared as below it gives ${words}, in ${milliseconds(time)}.`;
-  if (!feasible) return `Wanted: ${wanted}. No map that was tried gives that. Nearest comes ${answer}`;
-  return `Wanted: ${wanted}. ${byError === null ? "The best map within it" : "The cheapest map that gives it"}: ${answer}`;
+  if (!feasible) return `Wanted: ${wanted}. Nothing that was tried gives that. Nearest comes ${answer}`;
+  return `Wanted: ${wanted}. ${byError === null ? "The best within it" : "The cheapest that gives it"}: ${answer}`;
 }
 
 // Where the two sets of pixels are seen.
@@ -127,12 +127,12 @@ function costChart({ tried, families, max_error, max_time_ms, shares }: TuneFact
   const dot = (one: Tried, best: boolean): Markup =>
     markup`<circle class="dot${best && " best-dot"}" cx="${fixed(at(one)[0])}" cy="${fixed(at(one)[1])}" r="${
       one.answer ? 8 : best ? 5 : 3.5
-    }"><title>${families[one.family]!.name}, ${one.size} texels: ${one.words}; ${milliseconds(one.time_ms)}</title></circle>`;
+    }"><title>${families[one.family]!.name}${one.size === null ? "" : `, ${one.size} texels`}: ${one.words}; ${milliseconds(one.time_ms)}</title></circle>`;
   return chartSvg(
     "Error against time, each map tried a point, the best of them joined",
     markup`${chartFrame(plot, logTicks(plot.minX, plot.maxX), "milliseconds for map and shading")}${goal()}<polyline
 class="curve front" points="${front.map((one) => at(one).map(fixed).join(",")).join(" ")}"/>${tried.map((one) => dot(one, false))}${named.map((one) => dot(one, true))}${named.map(
-      (one) => labels.place(...at(one), `${families[one.family]!.technique} ${one.size}`),
+      (one) => labels.place(...at(one), `${families[one.family]!.technique} ${one.size ?? ""}`.trim()),
     )}`,
   );
 }
@@ -202,7 +202,7 @@ function familyTable({ families, feasible, head }: TuneFacts): Markup {
       i === 0 && feasible && markup` <abbr title="the answer">★</abbr>`
     }<small>${
       family.why
-    }</small></th>${n(String(family.size))}${n(family.bias ?? "–")}${n(percent(family.wrong_fraction))}${n(percent(family.mean_absolute))}${head && n(plainNumber(family.figure))}${n(
+    }</small></th>${n(String(family.size ?? "–"))}${n(family.bias ?? "–")}${n(percent(family.wrong_fraction))}${n(percent(family.mean_absolute))}${head && n(plainNumber(family.figure))}${n(
       milliseconds(family.time_ms),
     )}<td class="run"><code>${family.command}</code></td></tr>\n`;
   return scrollRegion(

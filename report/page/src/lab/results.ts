@@ -57,7 +57,7 @@ export function biasAt(chart: SVGElement, clientX: number, light: LightResult): 
     width = Number(chart.getAttribute("viewBox")!.split(" ")[2]);
   const share = (((clientX - box.left) * width) / box.width - left!) / (right! - left!),
     texel = light.map.bias.texel_world;
-  return share < 0 || share > 1 || !(texel > 0) ? null : (from! + share * (to! - from!)) / texel;
+  return share < 0 || share > 1 || !texel ? null : (from! + share * (to! - from!)) / texel;
 }
 
 export function resultsMarkup(drawn: Drawn, facts: LabFacts): Markup {
