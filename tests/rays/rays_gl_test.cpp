@@ -3,6 +3,13 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/result/estimate.h"
+#include "compare/result/output_parts.h"
+#include "compare/result/outputs.h"
+#include "compare/result/verdict.h"
 #include "rays/visibility.h"
 #include "scene/load.h"
 #include "tests/support/one_world.h"
@@ -91,6 +98,68 @@ TEST(RaysTechnique, OneRayToALightWithoutSizeIsExact) {
       EXPECT_GT(light.pixels.compared, 0u);
       EXPECT_EQ(light.error.mean_absolute, 0.0) << name;
     }
+  }
+}
+
+TEST(RaysTechnique, SaysNothingInTexelsOfAMapThatIsNotThere) {
+  const auto world = open("penumbra");
+  ASSERT_NE(world, nullptr);
+  const compare::Comparison result = world->compare(ray_options(Denoiser::penumbra));
+  const compare::LightComparison& light = result.lights.front();
+  EXPECT_GT(light.edges.edges, 0u);
+  EXPECT_GT(light.edges.rms_world, 0.0);
+  EXPECT_TRUE(std::isnan(light.edges.rms_texels));
+  const auto json = nlohmann::json::parse(compare::result_json(result, 0.0, 0.0));
+  const auto& map = json.at("lights").at(0).at("map");
+  for (const char* key : {"size", "faces", "depth_format", "stores", "window"})
+    EXPECT_TRUE(map.at(key).is_null()) << key;
+  EXPECT_TRUE(map.at("texel_world").at("median").is_null());
+  EXPECT_TRUE(map.at("windows").empty());
+}
+
+TEST(RaysTechnique, AnotherMachinesTimeIsItsRatesTimesWhatWasCounted) {
+  const auto world = open("penumbra");
+  ASSERT_NE(world, nullptr);
+  compare::CompareOptions options = ray_options(Denoiser::penumbra);
+  const auto estimated = [&](bool moves) {
+    compare::Comparison result = world->compare(options);
+    result.rates =
+        compare::Rates{.name = "slow", .source = "", .texels = 1e6, .lookups = 2e6, .rays = 4e6, .taps = 8e6};
+    return std::pair(compare::estimated_sides(result, result.lights.front(), moves), result);
+  };
+  const auto [rays, drawn] = estimated(true);
+  const auto& cast = *drawn.raster.lights.front().external;
+  EXPECT_DOUBLE_EQ(rays.map, double(cast.rays) / 4e3 + double(cast.taps) / 8e3);
+  EXPECT_DOUBLE_EQ(rays.rays, double(drawn.raytraced.lights.front().soft_rays) / 4e3);
+  options.raster.map = {};
+  const auto [still, hard] = estimated(false);
+  EXPECT_DOUBLE_EQ(still.map, double(*hard.lights.front().lookups) / 2e3);
+  const double texels = double(hard.raster.lights.front().map_texels);
+  EXPECT_DOUBLE_EQ(estimated(true).first.map, still.map + texels / 1e3);
+  EXPECT_GT(texels, 0.0);
+}
+
+TEST(RaysTechnique, EdgesThatABlurTakesAwayAreNotRightToTheTexel) {
+  const auto world = open("penumbra");
+  ASSERT_NE(world, nullptr);
+  compare::CompareOptions options = ray_options(Denoiser::none);
+  options.raster.map = {};
+  options.raster.map.technique = raster::Technique::esm;
+  options.raster.map.size = 64;
+  const compare::Comparison result = world->compare(options);
+  EXPECT_EQ(result.lights.front().edges.edges, 0u);
+  EXPECT_TRUE(std::isnan(result.lights.front().edges.rms_texels));
+}
+
+TEST(RaysTechnique, SamplesTooFewForPenumbrasAreSaid) {
+  const auto world = open("penumbra");
+  ASSERT_NE(world, nullptr);
+  compare::CompareOptions options = ray_options(Denoiser::none);
+  for (const auto& [samples, said] : {std::pair(4, true), {256, false}}) {
+    options.raytrace.shadow_samples = samples;
+    const compare::Comparison result = world->compare(options);
+    const std::string words = compare::verdict_on(result, result.lights.front()).whole();
+    EXPECT_EQ(words.find("use more --samples") != std::string::npos, said) << words;
   }
 }
 
