@@ -124,6 +124,13 @@ struct ErrorStats {
   double ssim_compared = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Of the finished pictures, where all that is said of a light is said of its visibility.
+struct ShadedError {
+  double mean_absolute =
+      0.0;            ///< of the colours as a screen shows them, in [0, 1], over all pixels but silhouettes
+  double flip = 0.0;  ///< mean FLIP
+};
+
 struct BudgetStep {
   double signed_mean = 0.0;    ///< mean of V[k+1] - V[k] over compared pixels; together mean(V6 - V0)
   double absolute_mean = 0.0;  ///< mean of |V[k+1] - V[k]|
@@ -439,9 +446,10 @@ struct Comparison {
   std::vector<TriedSetting> tried;  ///< empty where nothing was worth a drawing, and where none was made
   ViewErrors views;
   const Figure* measure = &wrong_and_mean();  ///< what errors are counted in, where the user chose
-  std::optional<Rates> rates;                 ///< of a machine that is not here
-  std::optional<Threshold> fail_above;        ///< what the errors were held against
-  double exposure = 1.0;                      ///< linear factor applied to both pictures before sRGB encoding
+  std::optional<ShadedError> shaded;    ///< none: not made, or rays draw more than shadows (measure/shaded.h)
+  std::optional<Rates> rates;           ///< of a machine that is not here
+  std::optional<Threshold> fail_above;  ///< what the errors were held against
+  double exposure = 1.0;                ///< linear factor applied to both pictures before sRGB encoding
   double load_ms = 0.0, topology_ms = 0.0, report_ms = 0.0, total_ms = 0.0;
   std::uint64_t peak_memory_bytes = 0;
 };

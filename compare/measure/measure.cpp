@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compare/measure/pictures.h"
+#include "compare/measure/shaded.h"
 #include "compare/measure/sums.h"
 #include "compare/result/figures.h"
 #include "compare/result/places.h"
@@ -115,6 +116,7 @@ Expected<void> Measuring::finish() {
   const auto exposure = images_.exposure();
   if (!exposure) return fail(exposure.error());
   out_.exposure = *exposure;
+  if (plan_.measure.perceptual && in_one_piece()) out_.shaded = shaded_error(out_);
   return {};
 }
 

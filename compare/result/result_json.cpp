@@ -257,6 +257,8 @@ std::string result_json(const Comparison& c, double report_ms, double total_ms) 
     json["lights"][i]["map"]["windows"] = windows_json(c, c.lights[i]);
   }
   json["camera"] = camera_json(c);
+  if (c.shaded)
+    json["shaded"] = {{"mean_absolute", number(c.shaded->mean_absolute)}, {"flip", number(c.shaded->flip)}};
   if (c.judged) json["judged"] = judged_json(*c.judged);
   add_measure(c, json);
   add_threshold(c, json);

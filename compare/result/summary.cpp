@@ -107,6 +107,12 @@ std::string error_line(const LightFigures& light) {
   return text;
 }
 
+// What is left of all lights' errors in the finished pictures.
+std::string shaded_line(const ShadedError& shaded) {
+  return fmt::format("the finished pictures differ by {} of a screen's range on average; FLIP {}",
+                     percent(shaded.mean_absolute), plain_number(shaded.flip));
+}
+
 // "acne 12,345, blur 300"; where something is partly lit, with what each label has of the mean error.
 std::string labels_line(const LightComparison& light) {
   std::string text;
@@ -227,6 +233,7 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("error", error_line(light));
+    if (c.shaded) page.field("shaded", shaded_line(*c.shaded));
     page.field("labels", labels_line(light));
     if (light.accidents.shadowed + light.accidents.lit > 0)
       page.field("by luck", accidents_line(light.accidents));

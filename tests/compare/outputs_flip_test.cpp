@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "compare/measure/shaded.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/weighted_rows.h"
 
@@ -251,6 +252,26 @@ TEST(WeightedRows, AreThePlainSum) {
       for (std::size_t x = 0; x < plain.size(); ++x) plain[x] += weights[k] * rows[k][x];
     EXPECT_EQ(sums, plain) << width;
   }
+}
+
+TEST(Shaded, IsTheMeanOfWhatAScreenShows) {
+  compare::Comparison c;
+  c.exposure = 2.0;
+  c.raster.color = c.raytraced.color = ColorImage({4, 4}, Vec3f(0.25f));
+  compare::LightComparison& light = c.lights.emplace_back();
+  light.labels = Image<compare::Label>({4, 4}, compare::Label::right);
+  EXPECT_EQ(compare::shaded_error(c)->mean_absolute, 0.0);
+  c.raster.color.data[0] = Vec3f(9.0f, 0.0f, 0.25f);  // 1, 0 and as before on the screen
+  c.raster.color.data[1] = Vec3f(0.25f + 0.0005f);    // less than half a step of eight bits
+  c.raster.color.data[2] = Vec3f(0.0f);               // on a silhouette
+  light.labels.data[2] = compare::Label::silhouette;
+  const double middle = 1.055 * std::pow(0.5, 1.0 / 2.4) - 0.055;
+  const auto shaded = compare::shaded_error(c);
+  ASSERT_TRUE(shaded);
+  EXPECT_NEAR(shaded->mean_absolute, ((1.0 - middle) + middle) / 3.0 / 15.0, 1e-9);
+  EXPECT_GT(shaded->flip, 0.0);
+  c.plan.entries[static_cast<std::size_t>(Effect::reflection)].simulated = true;
+  EXPECT_FALSE(compare::shaded_error(c));
 }
 
 }  // namespace

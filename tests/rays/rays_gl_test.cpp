@@ -163,6 +163,24 @@ TEST(RaysTechnique, SamplesTooFewForPenumbrasAreSaid) {
   }
 }
 
+TEST(RaysTechnique, FinishedPicturesAreAsRightAsTheirShadows) {
+  const auto world = open("fence");
+  ASSERT_NE(world, nullptr);
+  compare::CompareOptions options = ray_options(Denoiser::none);
+  options.perceptual = true;
+  const compare::Comparison exact = world->compare(options);
+  ASSERT_TRUE(exact.shaded);
+  EXPECT_EQ(exact.shaded->mean_absolute, 0.0);
+  EXPECT_EQ(exact.shaded->flip, 0.0);
+  options.raster.map = {};
+  const compare::Comparison hard = world->compare(options);
+  ASSERT_TRUE(hard.shaded);
+  EXPECT_GT(hard.shaded->mean_absolute, 0.0);
+  EXPECT_LT(hard.shaded->mean_absolute, hard.lights.front().error.mean_absolute);
+  EXPECT_LT(hard.shaded->flip, hard.lights.front().error.flip);
+  EXPECT_FALSE(open("whitted")->compare(options).shaded) << "rays mirror there";
+}
+
 TEST(RaysTechnique, DrawsTheSameOnOneThread) {
   const auto picture = [](Denoiser denoiser) {
     const auto world = open("penumbra");

@@ -3,7 +3,7 @@ import { beyondRounding, keyed, keyedCount, keyedDecrease, keyedSigned, keyedThi
 import { picture, pictureNamed } from "./frame";
 import { byteCount, grouped, milliseconds, percent, plainNumber, signedNumber, unsignedNumber } from "./number_text";
 import { palette } from "./parts";
-import { facts, lacksMap, lessonDetails, plain, stepName, type LightResult } from "./report_document";
+import { facts, lacksMap, lessonDetails, plain, result, stepName, type LightResult } from "./report_document";
 import { markup, scrollRegion, swatch, type Markup } from "./template";
 
 // How few rays were cast and denoised, and what a frame of them takes.
@@ -265,6 +265,13 @@ ${
     plain(`${key}.error.flip`),
     markup`how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 entirely${alone("flip_compared")}`,
   )}${
+    result.shaded &&
+    fact(
+      "Finished pictures",
+      keyed("shaded.mean_absolute", percent),
+      markup`mean difference of the colours on a screen, of all lights together, where textures and other light hide a part; FLIP ${plain("shaded.flip")}`,
+    )
+  }${
     error.ssim !== null &&
     fact(
       "SSIM",
