@@ -373,10 +373,20 @@ struct LightImages : Climb, MetricMaps {
       stored_glass;  ///< shown_materials.h; empty where no material is glass, and where not made
 };
 
+/// Of V6 - V0 as a mean over several places in each pixel, where all else is at its centre (measure/subpixels.h).
+struct SubpixelFigures {
+  int places = 0;               ///< in each pixel
+  std::uint64_t pixels = 0;     ///< with a place that could be compared; silhouettes are among them
+  double mean_absolute = 0.0;   ///< of the pixels' means
+  double wrong_fraction = 0.0;  ///< of pixels whose mean is off by more than one half
+  double unknown = 0.0;         ///< the share of places on surfaces that could not be compared
+};
+
 struct LightComparison : LightFigures, LightLists, LightImages {
   std::uint32_t light = 0;  ///< index in Scene::lights
   std::size_t record = 0;   ///< index in RasterFrame::lights and RayTracedFrame::lights
   Times classify;
+  std::optional<SubpixelFigures> subpixel;  ///< where it was asked for
 };
 
 /// Makes unknown (NaN) what is counted in texels, where there is no map, or it is not known.

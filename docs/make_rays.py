@@ -48,10 +48,10 @@ def row(scene, size, name, technique):
 
 
 def film(scene, size, name, technique):
-    def error(*path):
+    def told(*path):
         light = asked("shimmer", scene, *size, "--size", "320x180", "--samples", "64", "--frames", "16", *path, "--technique", *technique)
-        return f"{100 * light['error']['absolute']:.3f}"
-    print(f"| {name} | {error('--path', 'still')} | {error('--path', 'orbit')} | {error('--move', 'light', '--path', 'orbit')} |", flush=True)
+        return f"{100 * light['error']['absolute']:.3f} | {steps(light['budget'], light['error']['absolute'])}"
+    print(f"| {name} | {told('--path', 'still')} | {told('--move', 'light', '--path', 'sun', '--speed', '0.05')} |", flush=True)
 
 
 def main():
@@ -60,9 +60,9 @@ def main():
         print("|---|---:|---|---:|---:|---:|---:|---:|")
         for name, technique in MAPS + RAYS:
             row(scene, size, name, technique)
-    print("\n### In time\n\n| penumbra | still, % | camera moves, % | light moves, % |\n|---|---:|---:|---:|")
+    print("\n### In time\n\n| courtyard --light-size 1 | still, % | its steps, % | the sun moves, % | its steps, % |\n|---|---:|---|---:|---|")
     for name, technique in FILMED:
-        film("penumbra", [], name, technique)
+        film("courtyard", ["--light-size", "1"], name, technique)
 
 
 main()

@@ -25,12 +25,14 @@
 #include "app/strongest_lights.h"
 #include "compare/advice/tried.h"
 #include "compare/measure/reduced.h"
+#include "compare/measure/subpixels.h"
 #include "compare/result/estimate.h"
 #include "compare/result/figures.h"
 #include "compare/result/output_parts.h"
 #include "compare/result/places.h"
 #include "compare/result/views.h"
 #include "raster/bands.h"
+#include "raster/technique_traits.h"
 #include "raster/use_shaders.h"
 #include "scene/base/stages.h"
 #include "scene/base/timing.h"
@@ -49,6 +51,7 @@ struct CompareCommand : RunOptions {
   std::string shader_folder;
   std::string rates_file;
   std::optional<compare::Rates> rates;
+  int places_per_pixel = 1;  ///< --subpixels
   std::optional<int> runs;
   bool timed_as_judged = false;
   int max_lights = usual_max_lights;
@@ -202,14 +205,15 @@ Expected<compare::Comparison> judge_view(const CompareCommand& command,
                                          const compare::CompareOptions& options, const LoadedScene& loaded,
                                          const std::vector<std::uint32_t>& lights,
                                          const raytrace::Tracer& tracer, raster::Renderer& renderer,
-                                         compare::ErrorPlaces& places) {
+                                         compare::ErrorPlaces* places,
+                                         compare::SubpixelSums* subpixels = nullptr) {
   const raster::RasterOptions& raster = options.raster;
   const auto bytes = compare_bytes(*loaded.scene, lights, raster.size, false);
   auto bands = plan_bands(command.memory, raster.size, bytes, raster::most_pixels(renderer, raster.map));
   if (!bands) return fail(bands.error());
   compare::Plan plan = compare::plan_of(tracer, lights, options);
   plan.bands = std::move(*bands);
-  plan.page = false, plan.folder = folder_of_rows(command), plan.places = &places;
+  plan.page = false, plan.folder = folder_of_rows(command), plan.places = places, plan.subpixels = subpixels;
   compare::Comparison out;
   const auto measured =
       compare::measure(out, plan, compare::frames_of(tracer, renderer, lights, options), compare::Progress());
@@ -238,7 +242,7 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
       console.progress(view.name, double(errors.views.size()) / double(views.size()));
       const compare::Pose pose = view.pose(own);
       loaded.scene->camera = pose.camera, loaded.scene->lights = pose.lights;
-      const auto compared = judge_view(command, options, loaded, *lights, tracer, **renderer, errors.places);
+      const auto compared = judge_view(command, options, loaded, *lights, tracer, **renderer, &errors.places);
       if (!compared) return fail(compared.error());
       add_view(errors, view.name, *compared);
     }
@@ -246,6 +250,36 @@ Expected<compare::ViewErrors> judge_views(const CompareCommand& command, LoadedS
   const compare::Pose worst = views[errors.worst].pose(own);
   loaded.scene->camera = worst.camera, loaded.scene->lights = worst.lights;
   return errors;
+}
+
+/// Compares a finer picture of the same view, for the means over several places in each pixel.
+Expected<void> measure_subpixels(const CompareCommand& command, const LoadedScene& loaded,
+                                 compare::Comparison& comparison, Console& console) {
+  const int side = command.places_per_pixel == 16 ? 4 : 2;
+  std::vector<std::uint32_t> lights;
+  for (const compare::LightComparison& light : comparison.lights) lights.push_back(light.light);
+  compare::CompareOptions options = command.setting.options;
+  const ImageSize size = options.raster.size;
+  options.raster.size = options.raytrace.size = {size.width * side, size.height * side};
+  options.raster.runs = 0, options.raster.shadow_cost = false;
+  options.raytrace.runs = 1, options.raytrace.warm_up = options.raytrace.picture = options.perceptual = false;
+  auto renderer = make_renderer(command.backend, loaded, console, command.shader_folder);
+  if (!renderer) return fail(renderer.error());
+  const raytrace::Tracer tracer(*loaded.world, options.accel, options.precision);
+  compare::SubpixelSums sums(size, side, lights.size());
+  const auto finer = judge_view(command, options, loaded, lights, tracer, **renderer, nullptr, &sums);
+  if (!finer) return fail(finer.error());
+  for (std::size_t i = 0; i < lights.size(); ++i) comparison.lights[i].subpixel = sums.figures(i);
+  return {};
+}
+
+/// A denoiser's filter and a sampler's pattern are made of pixels: finer ones draw another picture.
+Expected<void> check_subpixels(const CompareCommand& command) {
+  if (command.places_per_pixel == 1 || !raster::samples_rays(command.setting.options.raster.map.technique))
+    return {};
+  return fail(ErrorKind::usage,
+              "--subpixels: not with --technique rays, for a finer picture has other rays and another "
+              "denoiser's width");
 }
 
 /// Compares nothing: keeps what the shaders of each folder draw, where the channels would go.
@@ -313,6 +347,7 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   if (const auto fine = check_views(command.views, command.camera, command.path, false, is_given); !fine)
     return fail(fine.error());
   if (const auto fine = check_outputs(command.output, files); !fine) return fail(fine.error());
+  if (const auto fine = check_subpixels(command); !fine) return fail(fine.error());
   if (!command.rates_file.empty()) {
     auto rates = compare::read_rates(command.rates_file);
     if (!rates) return fail(rates.error());
@@ -337,6 +372,9 @@ Expected<ExitCode> run_compare(CompareCommand& command) {
   }
   auto compared = render_and_compare(command, *loaded, std::move(errors), console);
   if (!compared) return fail(compared.error());
+  if (command.places_per_pixel > 1)
+    if (const auto measured = measure_subpixels(command, *loaded, compared->comparison, console); !measured)
+      return fail(measured.error());
   compared->comparison.total_ms = total.elapsed_ms();
   console.progress("writing", 1.0);
   if (only_prints_json(command.output))
@@ -369,6 +407,15 @@ void add_options(CLI::App& app, CompareCommand& command) {
       "time shading with all that is recorded of it, so that nothing in a shader of --shader-dir tells "
       "a timed drawing from a judged one; in software in processor time; without shadow cost [default "
       "off]");
+  add_value(app, "--subpixels", "4|16",
+            describe("compare both shadows at so many places in each pixel as well, on silhouettes too",
+                     "4 or 16", "the centre alone"),
+            [&command](const std::string& text) -> Expected<void> {
+              if (text != "4" && text != "16")
+                return fail(ErrorKind::usage, fmt::format("(got {}, allowed 4 or 16)", text));
+              command.places_per_pixel = text == "4" ? 4 : 16;
+              return {};
+            });
   add_value(app, "--rates", "FILE",
             "estimate what the shadows take on another machine, from what was counted and this file's rates "
             "(docs/rates.md) [default none]",

@@ -92,6 +92,7 @@ Expected<void> Measuring::add_light(std::size_t i, const Frames& band, const Pic
   if (plan_.places != nullptr)
     add_errors(band.traced.receiver, climbed.labels, climbed.rungs.front(), climbed.rungs.back(),
                *plan_.places);
+  if (plan_.subpixels != nullptr) plan_.subpixels->add(i, rows.first, climbed);
   const NearLight near = near_.add(i, climbed, labels);
   auto maps = sums_[i].add_neighbours(input(near_.frames(), i, near_.first()), near, ready);
   if (!maps) return fail(maps.error());

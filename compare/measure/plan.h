@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/ladder/ladder.h"
+#include "compare/measure/subpixels.h"
 #include "compare/measure/sums.h"
 #include "raster/renderer.h"
 #include "scene/base/expected.h"
@@ -47,7 +48,8 @@ struct Plan {
   const raytrace::Topology* topology = nullptr;  ///< of the tracer's world; null: made here
   /// From top to bottom. At most one: the picture in one piece, whose images stay in the comparison.
   std::vector<PictureRows> bands{};
-  ErrorPlaces* places = nullptr;  ///< takes the errors of all lights; null: not asked for
+  ErrorPlaces* places = nullptr;      ///< takes the errors of all lights; null: not asked for
+  SubpixelSums* subpixels = nullptr;  ///< takes all lights' pixels; null: this is the picture itself
   // Of a picture in bands:
   bool page = true;      ///< whether the images that the report page shows are wanted
   std::string aov{};     ///< a path as aov_path() has it; "": not wanted

@@ -224,6 +224,14 @@ Json estimate_json(const Comparison& c, const LightComparison& light) {
   return {{"rates", c.rates->name}, {"nothing_moves", sides(false)}, {"light_moves", sides(true)}};
 }
 
+Json subpixel_json(const SubpixelFigures& of) {
+  return {{"places", of.places},
+          {"pixels", of.pixels},
+          {"mean_absolute", number(of.mean_absolute)},
+          {"wrong_fraction", number(of.wrong_fraction)},
+          {"unknown", number(of.unknown)}};
+}
+
 Json budget_json(const Comparison& c, const LightComparison& light) {
   Json json = Json::array();
   for (std::size_t k = 0; k < known_steps(c); ++k)
@@ -427,6 +435,7 @@ Json light_block(const Comparison& c, const LightComparison& light, bool full) {
     block["soft_shadow_rays"] = truth.soft_rays;
     block["soft_shadow_rays_asked"] = truth.soft_rays_asked;
   }
+  if (light.subpixel) block["subpixel"] = subpixel_json(*light.subpixel);
   if (c.rates) block["estimate"] = estimate_json(c, light);
   return block;
 }

@@ -107,6 +107,16 @@ std::string error_line(const LightFigures& light) {
   return text;
 }
 
+std::string subpixel_line(const LightComparison& light) {
+  const SubpixelFigures& of = *light.subpixel;
+  return fmt::format(
+      "mean {} over {} places in each of {} pixels, silhouettes too ({} at centres); {} wrong; {} of the "
+      "places are "
+      "unknown",
+      plain_number(of.mean_absolute), of.places, grouped(of.pixels), plain_number(light.error.mean_absolute),
+      percent(of.wrong_fraction), percent(of.unknown));
+}
+
 // What is left of all lights' errors in the finished pictures.
 std::string shaded_line(const ShadedError& shaded) {
   return fmt::format("the finished pictures differ by {} of a screen's range on average; FLIP {}",
@@ -233,6 +243,7 @@ void add_light(SummaryPage& page, const Comparison& c, const LightComparison& li
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("error", error_line(light));
+    if (light.subpixel) page.field("in pixels", subpixel_line(light));
     if (c.shaded) page.field("shaded", shaded_line(*c.shaded));
     page.field("labels", labels_line(light));
     if (light.accidents.shadowed + light.accidents.lit > 0)
@@ -269,6 +280,7 @@ void add_figures_in_short(SummaryPage& page, const Comparison& c, const LightCom
   if (light.pixels.compared > 0) {
     page.field("wrong", wrong_line(light.error));
     page.field("labels", labels_line(light));
+    if (light.subpixel) page.field("in pixels", subpixel_line(light));
   }
   if (!raster::samples_rays(c.raster.options.map.technique) &&
       (light.outside.receivers > 0 || !c.raster.options.map.window.empty()))

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compare/measure/shaded.h"
+#include "compare/measure/subpixels.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/weighted_rows.h"
 
@@ -272,6 +273,25 @@ TEST(Shaded, IsTheMeanOfWhatAScreenShows) {
   EXPECT_GT(shaded->flip, 0.0);
   c.plan.entries[static_cast<std::size_t>(Effect::reflection)].simulated = true;
   EXPECT_FALSE(compare::shaded_error(c));
+}
+
+TEST(Subpixel, IsTheMeanOverThePlacesOfEachPixel) {
+  compare::SubpixelSums sums({2, 1}, 2, 1);
+  compare::Climb rows;  // the upper row of places, then the lower one
+  for (Image<float>& rung : rows.rungs) rung = Image<float>({4, 1}, 1.0f);
+  rows.labels = Image<compare::Label>({4, 1}, compare::Label::right);
+  rows.rungs.back().data = {0.0f, 1.0f, 1.0f, 1.0f};
+  sums.add(0, 0, rows);
+  rows.rungs.back().data = {0.0f, 0.0f, 0.5f, 0.0f};
+  rows.labels.data = {compare::Label::acne, compare::Label::acne, compare::Label::silhouette,
+                      compare::Label::background};
+  sums.add(0, 1, rows);
+  const compare::SubpixelFigures of = sums.figures(0);
+  EXPECT_EQ(of.places, 4);
+  EXPECT_EQ(of.pixels, 2u);
+  EXPECT_DOUBLE_EQ(of.mean_absolute, (0.75 + 0.0) / 2.0);
+  EXPECT_DOUBLE_EQ(of.wrong_fraction, 0.5);
+  EXPECT_DOUBLE_EQ(of.unknown, 1.0 / 7.0);
 }
 
 }  // namespace

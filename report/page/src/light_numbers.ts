@@ -265,6 +265,16 @@ ${
     plain(`${key}.error.flip`),
     markup`how visible the difference is when the two visibility pictures are flipped: 0 not at all, 1 entirely${alone("flip_compared")}`,
   )}${
+    light.subpixel &&
+    fact(
+      "Within pixels",
+      plain(`${key}.subpixel.mean_absolute`),
+      markup`mean error of ${keyedThings(`${key}.subpixel.pixels`, "pixel")}, each a mean over ${light.subpixel.places} places, silhouettes too; ${keyed(
+        `${key}.subpixel.unknown`,
+        percent,
+      )} of the places are unknown`,
+    )
+  }${
     result.shaded &&
     fact(
       "Finished pictures",
