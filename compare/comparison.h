@@ -255,6 +255,9 @@ struct PenumbraStats {
   std::uint64_t drawn_umbra_pixels = 0, drawn_penumbra_pixels = 0;
   /// Describes the truth's samples, over compared pixels whose truth lies between 0 and 1.
   double standard_error_mean = 0.0, standard_error_max = 0.0;
+  /// How far the share of the unshadowed light that arrives lies from V0, the share of the light that is seen: a mean over
+  /// receivers that see a part (measure/weighted_light.h); NaN where not measured.
+  double weighted_difference = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What rays to the light's centre meet, counted on rays spread over the picture, one by one through the tree.

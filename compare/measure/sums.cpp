@@ -136,6 +136,9 @@ Expected<Image<float>> LightSums::add_pixels(const LadderInput& in, const Climb&
   if (options_.perceptual) {
     const std::size_t first = in.traced.receiver.index(0, in.place.first_row);
     add_ray_work(in.tracer, in.light(), in.traced.receiver, labels, first, picture_.pixels(), ray_work_);
+    if (soft_)
+      weighted_.add(in.tracer, in.light(), in.truth().samples, in.traced.receiver, climb.rungs[0],
+                    labels_climbed, first, picture_.pixels());
     if (other_sizes_apply(in.drawn, in.record()))
       other_sizes_.add(in, climb.rungs[0], labels, picture_.pixels());
   }
@@ -214,6 +217,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
     out.pixels.uncertain_by_samples = climbed_compared_ - out.pixels.compared;
     out.penumbra = penumbra_.stats();
     standard_errors_.write_to(*out.penumbra);
+    weighted_.write_to(*out.penumbra);
   }
   out.bias_texel_world = in.record().texel_world;
   out.seams = seams_;

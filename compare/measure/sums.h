@@ -13,6 +13,7 @@
 #include "compare/measure/number_list.h"
 #include "compare/measure/pixel_measures.h"
 #include "compare/measure/rows.h"
+#include "compare/measure/weighted_light.h"
 #include "compare/metrics/edges.h"
 #include "compare/truth/theory.h"
 
@@ -73,6 +74,7 @@ class LightSums {
   PenumbraMeasure penumbra_;
   std::optional<SeamCount> seams_;
   RayWork ray_work_;
+  WeightedLight weighted_;
   OtherSizesSum other_sizes_;
   EdgeSums edges_;
   Perception perception_;

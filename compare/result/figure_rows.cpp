@@ -372,6 +372,11 @@ constexpr Figure rows[] = {
      "of the truth's samples of the light, estimated from them, over compared pixels that see a part of it",
      at<soft, &S::standard_error_mean>(), less},
     {"penumbra.standard_error_max", "share", "the largest of them", at<soft, &S::standard_error_max>(), less},
+    {"penumbra.weighted_difference", "share",
+     "how far the share of the unshadowed light that arrives lies from V0, the share of the light that is "
+     "seen, on average where a "
+     "part is seen; null where not measured",
+     or_null(at<soft, &S::weighted_difference>()), less},
 
     {"map.texel_world.min", "world units", "smallest", or_null(FigurePlace{texel_width<0>})},
     {"map.texel_world.median", "world units", "median", or_null(FigurePlace{texel_width<1>})},

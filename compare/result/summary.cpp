@@ -201,6 +201,10 @@ void add_penumbra(SummaryPage& page, const PenumbraStats& p, int samples) {
                                  plain_number(p.standard_error_mean), plain_number(p.standard_error_max));
   page.field("truth", fmt::format("{} of the light; {}",
                                   counted(static_cast<std::uint64_t>(samples), "sample"), error));
+  if (p.weighted_difference > p.standard_error_mean)
+    page.field("", fmt::format("weighed by what each part of the light contributes, V0 is another by {} on "
+                               "average where a part is seen",
+                               plain_number(p.weighted_difference)));
   if (p.edges == 0) return;
   page.field("penumbra",
              fmt::format("{} wide in truth, {} as drawn ({} of {})", plain_number(p.true_penumbra_world),

@@ -181,6 +181,21 @@ TEST(RaysTechnique, FinishedPicturesAreAsRightAsTheirShadows) {
   EXPECT_FALSE(open("whitted")->compare(options).shaded) << "rays mirror there";
 }
 
+TEST(RaysTechnique, PartsOfALightThatContributeAlikeWeighNothing) {
+  const auto weighted = [](const char* scene, double size) {
+    const auto world = open(scene);
+    if (size > 0.0) EXPECT_TRUE(resize_shape(world->scene.lights[0].extent, size));
+    compare::CompareOptions options = ray_options(Denoiser::none);
+    options.perceptual = true;
+    options.raytrace.shadow_samples = 64;
+    return world->compare(options).lights.front().penumbra->weighted_difference;
+  };
+  // Half a degree of the sun changes the cosine by less than a hundredth; a lamp near its receivers has nearer parts.
+  const double sun = weighted("courtyard", 0.5), lamp = weighted("penumbra", 0.0);
+  EXPECT_LT(sun, 0.002);
+  EXPECT_GT(lamp, 0.005);
+}
+
 TEST(RaysTechnique, DrawsTheSameOnOneThread) {
   const auto picture = [](Denoiser denoiser) {
     const auto world = open("penumbra");
