@@ -85,7 +85,7 @@ nlohmann::ordered_json eye_ray_checks();
 /// ranges: first, last, first, last, … Error: of the scene; (internal) no such kind.
 Expected<nlohmann::ordered_json> structure_cut(const std::string& kind, const std::string& scene);
 
-/// What grids with 1 to 125 cells for each primitive cost the eye's rays of a built-in scene: "points" [{density, cells, triangles}], both
+/// What grids with 1 to 125 cells a primitive cost a built-in scene's eye rays and shadow rays: "points" [{density, cells, triangles}], both
 /// means of a ray. "program" has the same as the ray tracer counts them for its own two grids, the endless planes among the
 /// triangles. Errors: of the scene.
 Expected<nlohmann::ordered_json> grid_curve(const std::string& scene);

@@ -16,13 +16,14 @@ using Json = nlohmann::ordered_json;
 using raytrace::WorkCounts;
 
 constexpr std::array densities{1.0, 2.0, 4.0, 8.0, 16.0, 27.0, 64.0, 125.0};  // cells for each primitive
-constexpr ImageSize picture{40, 24};                                          // pixels, a ray each
+constexpr ImageSize picture{64, 36};  // pixels, an eye ray each; of the shape that `gnomon bench` counts
 
-/// Where the ray meets an endless plane of the scene, which no cell holds; else where it ends.
-double end_at_planes(const World& world, const Ray& ray) {
+/// Where the ray meets an endless plane of the scene, which no cell holds, and which is tested by every ray; else where it ends.
+double end_at_planes(const World& world, const Ray& ray, WorkCounts& work) {
   double end = ray.t.max;
   for (const Shape& shape : world.shapes)
     if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
+      ++work.primitives;
       const double t =
           glm::dot(plane->normal, plane->point - ray.origin) / glm::dot(plane->normal, ray.direction);
       if (t > 0.0 && t < end) end = t;
@@ -40,8 +41,16 @@ double triangle_hit(const Vec3& o, const Vec3& d, const std::array<Vec3, 3>& cor
   return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 ? t : infinity;
 }
 
-void count_ray(const raytrace::Structure& grid, const raytrace::CellItems& items, Ray ray, WorkCounts& work) {
-  ray.t.max = end_at_planes(items.world(), ray);
+/// What `gnomon bench` counts: the eye's rays, and the first light's shadow rays from what they hit.
+struct Rays {
+  std::vector<Ray> eye, shadow;
+  double count() const { return static_cast<double>(eye.size() + shadow.size()); }
+};
+
+/// `any`: the first hit ends it, as it does a shadow ray.
+void count_ray(const raytrace::Structure& grid, const raytrace::CellItems& items, Ray ray, bool any,
+               WorkCounts& work) {
+  ray.t.max = end_at_planes(items.world(), ray, work);
   const auto frame = raytrace::make_ray_frame(ray);
   if (!frame) return;
   raytrace::BoxRay boxes(*frame, items.center());
@@ -49,24 +58,32 @@ void count_ray(const raytrace::Structure& grid, const raytrace::CellItems& items
   raytrace::traverse_structure(grid, boxes, &work, [&](std::uint32_t item) {
     if (!items.is_triangle(item)) return false;
     const double t = triangle_hit(ray.origin - items.center(), d, items.corners(item));
-    if (t < static_cast<double>(boxes.t_max)) boxes.t_max = raytrace::float_above(t);
-    return false;
+    if (!(t < static_cast<double>(boxes.t_max))) return false;
+    boxes.t_max = raytrace::float_above(t);
+    return any;
   });
 }
 
-std::vector<Ray> eye_rays(const Scene& scene) {
+Rays rays_of(const Scene& scene, const World& world) {
   const View view = make_view(scene.camera, picture);
-  std::vector<Ray> rays;
+  const raytrace::Tracer tracer(world, raytrace::Accel::bvh);
+  Rays rays;
   for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) rays.push_back(pixel_ray(view, x + 0.5, y + 0.5));
+    for (int x = 0; x < picture.width; ++x) {
+      const Ray& ray = rays.eye.emplace_back(pixel_ray(view, x + 0.5, y + 0.5));
+      const auto hit = tracer.closest_hit(ray);
+      if (!hit || scene.lights.empty()) continue;
+      const auto point = tracer.surface_point(ray, *hit);
+      if (!light_cannot_reach(scene.lights[0], point.position, point.normal))
+        rays.shadow.push_back(tracer.shadow_ray(point, scene.lights[0]));
+    }
   return rays;
 }
 
-Json point(double density, const WorkCounts& work) {
-  const double rays = picture.width * picture.height;
+Json point(double density, const WorkCounts& work, const Rays& rays) {
   return {{"density", density},
-          {"cells", static_cast<double>(work.boxes) / rays},
-          {"triangles", static_cast<double>(work.primitives) / rays}};
+          {"cells", static_cast<double>(work.boxes) / rays.count()},
+          {"triangles", static_cast<double>(work.primitives) / rays.count()}};
 }
 
 }  // namespace
@@ -76,7 +93,7 @@ Expected<nlohmann::ordered_json> grid_curve(const std::string& scene_name) {
   if (!scene) return fail(scene.error());
   const World world = make_world(*scene);
   const raytrace::CellItems items(world);
-  const std::vector<Ray> rays = eye_rays(*scene);
+  const Rays rays = rays_of(*scene, world);
   Json json{{"scene", scene_name},
             {"primitives", items.count()},
             {"points", Json::array()},
@@ -84,16 +101,18 @@ Expected<nlohmann::ordered_json> grid_curve(const std::string& scene_name) {
   for (const double density : densities) {
     const raytrace::Structure grid(raytrace::build_grid(items, {.density = density}));
     WorkCounts work;
-    for (const Ray& ray : rays) count_ray(grid, items, ray, work);
-    json["points"].push_back(point(density, work));
+    for (const Ray& ray : rays.eye) count_ray(grid, items, ray, false, work);
+    for (const Ray& ray : rays.shadow) count_ray(grid, items, ray, true, work);
+    json["points"].push_back(point(density, work, rays));
   }
   for (const raytrace::Accel accel : {raytrace::Accel::grid, raytrace::Accel::grid_textbook}) {
     const raytrace::Tracer tracer(world, accel);
     WorkCounts work;
-    for (const Ray& ray : rays) tracer.closest_hit(ray, work);
+    for (const Ray& ray : rays.eye) tracer.closest_hit(ray, work);
+    for (const Ray& ray : rays.shadow) tracer.occluded(ray, work);
     json["program"].push_back(point(accel == raytrace::Accel::grid ? raytrace::GridOptions{}.density
                                                                    : raytrace::GridOptions::textbook_density,
-                                    work));
+                                    work, rays));
   }
   return json;
 }

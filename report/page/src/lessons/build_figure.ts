@@ -158,13 +158,14 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
             .map((node) => stage.label("middle", middleOf(node), node.name, 6))),
     );
     const met = last?.boxes ?? 0,
-      tested = last?.discs ?? 0,
+      testedInAll = last?.discs ?? 0, // a disc in several cells, in each
       tried = made.reduce((sum, node) => sum + node.tried, 0);
     Object.assign(said.dataset, {
       splits: String(made.length),
       tried: String(tried),
       boxes: String(met),
-      discs: String(tested),
+      discs: String(tests.size),
+      tests: String(testedInAll),
       t: String(last?.t ?? Infinity),
       stack: (last?.stack ?? []).join(" "),
     });
@@ -172,7 +173,9 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
       kind === "grid"
         ? ""
         : say`${many(made.length, "split", "splits")} of ${splits}${tried > 0 ? say`, the cheapest of ${grouped(tried)} tried` : ""}. `
-    }The ray has met ${many(met, ...metBy(kind))} and tested ${many(tested, "disc", "discs")} of ${discs.length}. ${
+    }The ray has met ${many(met, ...metBy(kind))} and tested ${many(tests.size, "disc", "discs")} of ${discs.length}${
+      testedInAll > tests.size ? say`, in ${testedInAll} tests: a disc in several cells is tested in each` : ""
+    }. ${
       grid || !last ? "" : last.stack.length > 0 ? say`On the stack: ${last.stack.join(", ")}. ` : say("The stack is empty. ")
     }${kind === "grid" ? "" : costs(tree, said)}`;
   };

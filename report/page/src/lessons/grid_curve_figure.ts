@@ -83,7 +83,7 @@ export function gridCurveFigure({ data }: FigureJson, id: string): HTMLElement {
     html(
       "p",
       { class: "hint" },
-      say`Counted for the eye's rays of the scene ${scene}. Blue: cells that a ray passes; orange: triangles that it tests; dotted: n = k·∛N, by the cube root from 8 on.`,
+      say`Counted for 64 x 36 eye rays of the scene ${scene} and their shadow rays. Blue: cells that a ray passes; orange: triangles that it tests; dotted: n = k·∛N, by the cube root from 8 on.`,
     ),
   );
 }

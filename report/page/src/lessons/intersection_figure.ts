@@ -3,6 +3,7 @@
 import { html, number } from "../svg";
 import { add, cross, dot, meetCircle, sub, unit, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
+import { edgeFigure } from "./edge_figure";
 import { frame } from "./flatland_figure";
 import { Sliders, Stage } from "./stage";
 import type { FlatlandJson } from "./flatland_figure";
@@ -117,9 +118,11 @@ interface Drawn {
 
 function drawBox(stage: Stage, o: Vec2, d: Vec2): Drawn {
   const intervals = ([0, 1] as const).map((k) => slab(o[k], d[k], box.low[k], box.high[k])),
-    entry = Math.max(0, ...intervals.map((i) => i[0])),
+    last = Math.max(...intervals.map((i) => i[0])),
+    entry = Math.max(0, last),
     exit = Math.min(...intervals.map((i) => i[1])),
-    hit = entry <= exit;
+    overlaps = last <= exit,
+    hit = overlaps && exit >= 0;
   const shown = (i: Interval): Vec2[] => [add(o, d, Math.min(Math.max(i[0], 0), 9)), add(o, d, Math.min(Math.max(i[1], 0), 9))],
     side: Vec2 = [-d[1], d[0]];
   const corners: Vec2[] = [box.low, [box.high[0], box.low[1]], box.high, [box.low[0], box.high[1]], box.low];
@@ -144,9 +147,13 @@ function drawBox(stage: Stage, o: Vec2, d: Vec2): Drawn {
     ],
     words: say`In the slab of x for t in [${intervals[0]!.map((t) => number(t, 4)).join(", ")}] (violet), of y for t in [${intervals[1]!
       .map((t) => number(t, 4))
-      .join(", ")}] (blue): the last entry ${number(entry, 4)} is ${
-      hit ? say("not after") : say("after")
-    } the first exit ${number(exit, 4)}, so the ray ${hit ? say("hits") : say("misses")} the box.`,
+      .join(", ")}] (blue): the last entry ${number(last, 4)} is ${
+      !overlaps
+        ? say("after the first exit")
+        : hit
+          ? say("not after the first exit")
+          : say("not after the first exit, which lies before the start")
+    }, ${number(exit, 4)}: the ray ${hit ? say("hits") : say("misses")} the box.`,
     numbers: { entry: String(entry), exit: String(exit), hit: String(hit) },
   };
 }
@@ -387,4 +394,8 @@ function rayFigure(kind: string, id: string): HTMLElement {
 }
 
 export const intersectionFigure = ({ settings }: FigureJson, id: string): HTMLElement =>
-  settings.kind === "triangle" ? triangleFigure(id, settings.show === "both", window) : rayFigure(settings.kind!, id);
+  settings.show === "edge"
+    ? edgeFigure(id, window)
+    : settings.kind === "triangle"
+      ? triangleFigure(id, settings.show === "both", window)
+      : rayFigure(settings.kind!, id);
