@@ -140,16 +140,17 @@ Expected<PageFigures::Json> PageFigures::map_size(const LiveMark& mark) {
 }
 
 Expected<PageFigures::Json> PageFigures::two_passes(const LiveMark& mark) {
-  Settings settings = for_comparison(mark);
+  Settings settings = for_comparison(mark, "passes");  // how far they have come at first
   if (mark.setting("map-size").empty()) settings.emplace_back("map-size", "64");  // texels that can be seen
   auto made = compare(mark, settings);
   if (!made) return fail(made.error());
   return Json{{"comparison", keep(key_of(mark, settings), std::move(*made), 0)}};
 }
 
-PageFigures::Json PageFigures::controls_of(const Row& row) {
+PageFigures::Json PageFigures::controls_of(const Row& row, const LiveMark& mark) {
   Json controls = Json::array();
-  if (!row.scenes.empty())
+  // A window is its scene's own.
+  if (!row.scenes.empty() && mark.setting("window-size").empty())
     controls.push_back(choice_facts("scene", "Scene", "The built-in scene that is looked at.", row.scenes));
   for (const std::string_view name : row.settings) {
     const raster::MapSetting* setting = raster::find_setting(name);
@@ -180,7 +181,7 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
     figure["settings"][key] = value;
     drawn_["values"].emplace(key, value);
   }
-  if (Json controls = controls_of(*row); !lab_.empty() && !controls.empty()) {
+  if (Json controls = controls_of(*row, mark); !lab_.empty() && !controls.empty()) {
     figure["controls"] = std::move(controls);
     figure["drawn"] = std::move(drawn_);
   }

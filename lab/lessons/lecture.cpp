@@ -117,6 +117,10 @@ std::string part_in(const std::string& block, std::string_view kind, std::string
   if (kind == "question") return question_of(block, words);
   if (kind == "formula")
     return block.starts_with("    ") && std::string_view(block).substr(4).starts_with(words) ? block : "";
+  if (kind == "code") {
+    const bool here = block.starts_with("<!-- code: ") && block.find(words) < block.find('\n');
+    return here ? block.substr(block.find('\n') + 1) : "";
+  }
   if (kind == "table") return block.starts_with("|") && block.starts_with(words) ? without_links(block) : "";
   const std::size_t with = words.find(" with ");
   const bool here = is_figure(block) && block.find(words.substr(0, with)) != std::string::npos;
@@ -159,15 +163,19 @@ std::string_view comment(std::string_view line, std::string_view opening) {
   return line;
 }
 
+constexpr std::string_view beyond_mark = "<!-- beyond -->";
+
 struct Slide {
   std::string heading, steps, minutes, notes;
+  bool beyond = false;  ///< may be left out
 };
 
 Expected<std::string> slide_text(const Slide& slide) {
   if (slide.minutes.empty())
     return fail(ErrorKind::internal, fmt::format("a slide has no minutes (got {})", slide.heading));
-  return fmt::format("{}\n\n{}<aside class=\"notes\" data-minutes=\"{}\">\n\n{}\n</aside>\n\n", slide.heading,
-                     slide.steps, slide.minutes, slide.notes);
+  return fmt::format("{}\n\n{}<aside class=\"notes\" data-minutes=\"{}\"{}>\n\n{}\n</aside>\n\n",
+                     slide.heading, slide.steps, slide.minutes, slide.beyond ? " data-beyond=\"\"" : "",
+                     slide.notes);
 }
 
 }  // namespace
@@ -190,13 +198,17 @@ Expected<std::string> lecture_text(std::string_view deck) {
   for (const std::string& block : blocks_of(deck)) {
     if (block.starts_with("## "))
       if (const auto closed = close(); !closed) return fail(closed.error());
-    if (block.starts_with("#")) slide = {block, "", "", ""};
+    if (block.starts_with("#")) slide = {block, "", "", "", false};
     if (block.starts_with("> ")) slide.steps += step("sentence", block.substr(2));
     if (block.starts_with("#") || block.starts_with("> ")) continue;
     std::istringstream lines(block);
     for (std::string line; std::getline(lines, line);) {
       const std::string_view minutes = comment(line, "<!-- minutes: "), shown = comment(line, "<!-- show: ");
       if (!minutes.empty()) slide.minutes = minutes;
+      if (line == beyond_mark) {
+        slide.beyond = true;
+        continue;
+      }
       if (!shown.empty()) {
         const auto steps = steps_of(shown);
         if (!steps) return fail(steps.error());

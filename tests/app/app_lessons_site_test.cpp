@@ -87,6 +87,7 @@ constexpr std::string_view lesson_of_parts =
     "# T\n\nOne is here. **Two** is\nlong, 1.5 of it. [Three](x.md) ends?\n\n    a = b\n    c = d\n\n"
     "<!-- live: bias scene=acne-floor map-size=64 bias=0 -->\n![p](../images/lesson-acne.png)\n\n| a | b "
     "|\n|---|---|\n\n"
+    "<!-- code: a/b.glsl from \"x\" to \"y\" -->\n```glsl\nx();\n\ny();\n```\n\n"
     "<details><summary>Why?</summary>\n\nSo.\n\nAnd so.\n\n</details>\n";
 
 TEST(Lecture, FindsTheLessonsParts) {
@@ -98,6 +99,8 @@ TEST(Lecture, FindsTheLessonsParts) {
   EXPECT_EQ(part("sentence", "[Three]"), "Three ends?\n") << "a slide leads nowhere";
   EXPECT_EQ(part("sentence", "is here"), "none") << "no sentence begins so";
   EXPECT_EQ(part("formula", "a ="), "    a = b\n    c = d\n");
+  EXPECT_EQ(part("code", "a/b.glsl"), "```glsl\nx();\n\ny();\n```\n");
+  EXPECT_EQ(part("code", "x();"), "none") << "code is named by its mark";
   EXPECT_EQ(part("table", "| a"), "| a | b |\n|---|---|\n");
   EXPECT_EQ(part("question", "Why"), "**Why?**\n\n===\n\n\nSo.\n\nAnd so.\n\n");
   EXPECT_EQ(part("figure", "bias size with map-size=16"), "none");
@@ -121,6 +124,14 @@ TEST(Lecture, IsALessonsTextOfSteps) {
        {"# T\n\n## No minutes\n", "# T\n\n<!-- minutes: 1 -->\n<!-- show: acne sentence No such -->\n",
         "# T\n\n<!-- minutes: 1 -->\n<!-- show: acme figure bias -->\n"})
     EXPECT_FALSE(lab::lessons::lecture_text(wrong).has_value()) << wrong;
+}
+
+TEST(Lecture, SaysWhatMayBeLeftOut) {
+  const auto text = lab::lessons::lecture_text(
+      "# T\n\n<!-- minutes: 1 -->\n\n## Q\n\n<!-- minutes: 2 -->\n<!-- beyond -->\n\nSay it.\n");
+  ASSERT_TRUE(text.has_value());
+  EXPECT_NE(text->find("data-minutes=\"1\">"), std::string::npos);
+  EXPECT_NE(text->find("data-minutes=\"2\" data-beyond=\"\">\n\n\nSay it."), std::string::npos) << *text;
 }
 
 TEST(LessonsCommand, SaysWhatIsWrong) {

@@ -1,5 +1,5 @@
 // Both lectures in a real browser, slide by slide as they are projected at 1024 x 768: nothing cut, no letter below 18
-// pixels, texels that the last row sees, minutes that sum to 90; slides and keys from the first moment, before the figures
+// pixels, texels that the last row sees, no symbol without a name (lecture_words.mjs), minutes that sum to 90; slides and keys from the first moment, before the figures
 // are made; keys, clicker, black screen, the speaker's window; no accessibility violation; and the PDF that Chromium prints: one page a slide, with all that is on it.
 // Needs what lessons_browser_test needs. Usage: node lectures_browser_test.mjs GNOMON_PROGRAM WORK_FOLDER
 import assert from "node:assert/strict";
@@ -9,6 +9,7 @@ import { basename, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { browser, close, colours, open, violations } from "../browser/open_page.mjs";
 import { pdfPages } from "../browser/pdf_text.mjs";
+import { checkWords } from "./lecture_words.mjs";
 
 const [program, folder] = process.argv.slice(2),
   viewport = { width: 1024, height: 768 };
@@ -31,7 +32,13 @@ const go = async (page, slide) => {
 /** Every slide: heading, minutes and notes; all of it on the screen; letters of 18 pixels or more; a question before its answer. */
 async function checkSlides(page, lecture) {
   const slides = await count(page),
-    minutes = await page.locator(".notes").evaluateAll((all) => all.map((notes) => Number(notes.dataset.minutes)));
+    minutes = await page.locator(".notes").evaluateAll((all) => all.map((notes) => Number(notes.dataset.minutes))),
+    core = await page
+      .locator(".notes:not([data-beyond])")
+      .evaluateAll((all) => all.reduce((sum, notes) => sum + Number(notes.dataset.minutes), 0));
+  // What the lecture on rays has of GAMES101's lectures 13 and 14, and of shadow maps what those have.
+  assert.equal(core, { rays: 64, shadows: 31 }[lecture], `${lecture} without what may be left out`);
+  assert.equal(await page.locator(".beyond").count(), await page.locator(".notes[data-beyond]").count());
   assert.equal(
     minutes.reduce((sum, m) => sum + m, 0),
     90,
@@ -47,7 +54,7 @@ async function checkSlides(page, lecture) {
         cut = [],
         broken = [];
       for (const element of part.querySelectorAll("*")) {
-        if (element.closest(".notes, .is-live > p") || element.getClientRects().length === 0) continue;
+        if (element.closest(".notes, .beyond, .is-live > p") || element.getClientRects().length === 0) continue;
         if (![...element.childNodes].some((c) => c.nodeType === Node.TEXT_NODE && c.textContent.trim() !== "")) continue;
         const drawing = element.closest("svg"),
           pixels = parseFloat(getComputedStyle(element).fontSize) * (drawing ? drawing.getScreenCTM().a : 1),
@@ -257,6 +264,7 @@ try {
   for (const lecture of lectures) {
     await checkFirstMoment(lecture);
     const page = await at(lecture);
+    await checkWords(page, lecture);
     await checkSlides(page, lecture);
     await checkTexels(page, lecture);
     await checkPairs(page, lecture);

@@ -422,7 +422,10 @@ operate.build = async (page, { settings: { kind }, data }, id) => {
       );
     }
   }
-  await slide(page, id, { walk: 1, ...(kind === "grid" ? { cells: 4 } : { built: 1 }) });
+  // It begins with nothing built, and no answer.
+  const begun = await said(page, id);
+  assert.deepEqual([begun.splits, begun.boxes, begun.discs, begun.expected], [0, 0, 0, undefined], `${kind} begins`);
+  await slide(page, id, { walk: 1, built: 1, ...(kind === "grid" ? { cells: 4 } : {}) });
   const whole = await said(page, id);
   assert.ok(whole.boxes >= 3 && whole.discs >= 1 && whole.discs < data.discs.length, JSON.stringify(whole));
   // What is said to be tested is outlined; what lies in several cells of a tree is tested in each. A grid has mailboxes, and boxes own.
@@ -432,6 +435,11 @@ operate.build = async (page, { settings: { kind }, data }, id) => {
   if (kind === "grid") {
     await slide(page, id, { cells: 16 });
     assert.ok((await said(page, id)).boxes > 1.5 * whole.boxes, "twice the cells along each axis are about twice the steps");
+    // A disc's box touches as many cells as it is entered into; one cell in all gains nothing.
+    assert.ok(whole.held >= data.discs.length && whole.held < whole.cells, JSON.stringify(whole));
+    await slide(page, id, { cells: 0 });
+    const { cells, held, boxes, discs } = await said(page, id);
+    assert.deepEqual([cells, held, boxes, discs], [1, 1, 1, data.discs.length]);
     return;
   }
   near(whole.counted, whole.expected, 0.02 * whole.expected, "boxes that a line meets");

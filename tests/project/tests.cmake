@@ -52,5 +52,8 @@ add_test(NAME project_prose_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_
 # Numbers that documents repeat: those of the confusion matrix.
 add_test(NAME project_numbers_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_numbers_test.py")
 
+# The code that lessons show is the code that runs.
+add_test(NAME project_lesson_code_test COMMAND /usr/bin/python3 "${CMAKE_CURRENT_LIST_DIR}/project_lesson_code_test.py")
+
 # The lessons' drawings are what their script writes.
 add_test(NAME docs_drawings_test COMMAND /usr/bin/python3 "${PROJECT_SOURCE_DIR}/docs/make_drawings.py" --check)

@@ -16,7 +16,8 @@ import {
   type Rule,
   type SmallNode,
 } from "./small_tree";
-import { walkCells } from "./small_grid";
+import { whenPrinted } from "./printed";
+import { fillCells, walkCells } from "./small_grid";
 import { Sliders, Stage } from "./stage";
 import { many, say } from "./say";
 
@@ -78,10 +79,20 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
   });
   const sliders: Sliders<string> = new Sliders<string>(
     {
+      built: share(say("Built"), Number(settings.built ?? 0)),
       ...(kind === "grid"
-        ? { cells: { name: say("Cells for each disc"), from: 1, to: 16, step: 1, value: 4, text: String } }
-        : { built: share(say("Built"), 1) }),
-      walk: share(say("Ray's way"), 1),
+        ? {
+            cells: {
+              name: say("Cells for each disc"),
+              from: 0,
+              to: 16,
+              step: 1,
+              value: 4,
+              text: (v: number) => (v === 0 ? say("one cell in all") : String(v)),
+            },
+          }
+        : {}),
+      walk: share(say("Ray's way"), 0),
       ...(ruled
         ? {
             rule: {
@@ -90,7 +101,7 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
               to: 1,
               step: 1,
               value: 0,
-              text: (v: number) => (v === 0 ? say("in the middle") : say("by area")),
+              text: (v: number) => (v === 1 ? say("by area") : kind === "bvh" ? say("the middle disc") : say("in the middle")),
             },
           }
         : {}),
@@ -109,12 +120,12 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
       show();
     },
   );
-  const step = (key: string, by: number) => {
-    const button = html(
-      "button",
-      { type: "button" },
-      by > 0 ? (key === "built" ? say("Next split") : say("Next step")) : key === "built" ? say("Split before") : say("Step before"),
-    );
+  const stepNames: Record<string, [string, string]> = {
+    built: kind === "grid" ? [say("Build back"), say("Build on")] : [say("Split before"), say("Next split")],
+    walk: [say("Step before"), say("Next step")],
+  };
+  const step = (key: string, by: -1 | 1) => {
+    const button = html("button", { type: "button" }, stepNames[key]![by > 0 ? 1 : 0]!);
     button.addEventListener("click", () => {
       const n = Math.max(1, key === "built" ? splits : steps);
       sliders.set(key, Math.min(Math.max((Math.round(sliders.value(key) * n) + by) / n, 0), 1));
@@ -125,11 +136,17 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
   const show = () => {
     const way = length(sub(to, from)) > 0 ? unit(sub(to, from)) : ([1, 0] as Vec2),
       tree = new SmallTree(kind, kind === "bsp" || (ruled && sliders.value("rule") === 1) ? "area" : "middle", discs);
-    const grid = kind === "grid" ? walkCells(discs, Math.sqrt(sliders.value("cells")), from, way) : null,
+    const perAxis = kind === "grid" ? Math.sqrt(sliders.value("cells")) : 0,
+      grid = kind === "grid" ? walkCells(discs, perAxis, from, way) : null,
       walk = grid ?? walkTree(tree, from, way);
-    splits = tree.splits.length;
+    // A grid is built by cutting the box, and by entering one disc after the other.
+    splits = grid ? 1 + discs.length : tree.splits.length;
     steps = walk.length;
-    const made = kind === "grid" ? [] : tree.splits.slice(0, Math.round(sliders.value("built") * splits)),
+    const done = Math.round(sliders.value("built") * splits),
+      made = grid ? [] : tree.splits.slice(0, done),
+      filled = fillCells(discs, perAxis),
+      entered = grid ? filled.lists.slice(0, Math.max(0, done - 1)) : [],
+      held = new Map(entered.flat().map((cell) => [cell.name, cell.outline])),
       seen = walk.slice(0, Math.round(sliders.value("walk") * steps)),
       last = seen.at(-1),
       all = seen.length === steps;
@@ -140,10 +157,12 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
     const hit = last && all && isFinite(last.t) ? add(from, way, last.t) : null;
     stage.put(
       stage.path("cells bold", [
-        ...(grid ? grid.lines : [closed(tree.root)]),
+        ...(grid && done > 0 ? grid.lines : [closed(tree.root)]),
         ...made.flatMap((node) => node.cut),
         ...shownNodes.map(closed),
       ]),
+      stage.path("held", held.values()),
+      ...(entered.at(-1) ?? []).map(({ outline }) => stage.path("held last", [[...outline, outline[0]!]])),
       ...seen.map((s) => stage.path(`visited${s.tested.length > 0 ? " tests" : ""}${s === last ? " last" : ""}`, [closed(s.node)])),
       ...discs.map((disc, i) => stage.circle(`disc${tests.has(i) ? " tested" : ""}`, disc.center, stage.units(disc.radius))),
       stage.path("ray", [[from, hit ?? add(from, way, 9)]]),
@@ -161,7 +180,9 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
       testedInAll = last?.discs ?? 0, // a disc in several cells, in each
       tried = made.reduce((sum, node) => sum + node.tried, 0);
     Object.assign(said.dataset, {
-      splits: String(made.length),
+      splits: String(grid ? done : made.length),
+      held: String(held.size),
+      cells: String(filled.all),
       tried: String(tried),
       boxes: String(met),
       discs: String(tests.size),
@@ -170,19 +191,32 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
       stack: (last?.stack ?? []).join(" "),
     });
     said.textContent = say`${
-      kind === "grid"
-        ? ""
+      grid
+        ? done === 0
+          ? say("Around everything a box. ")
+          : say`${many(filled.all, "cell", "cells")}; ${many(entered.length, "disc", "discs")} of ${discs.length} entered, into the lists of ${held.size}. `
         : say`${many(made.length, "split", "splits")} of ${splits}${tried > 0 ? say`, the cheapest of ${grouped(tried)} tried` : ""}. `
     }The ray has met ${many(met, ...metBy(kind))} and tested ${many(tests.size, "disc", "discs")} of ${discs.length}${
       testedInAll > tests.size ? say`, in ${testedInAll} tests: a disc in several cells is tested in each` : ""
     }. ${
       grid || !last ? "" : last.stack.length > 0 ? say`On the stack: ${last.stack.join(", ")}. ` : say("The stack is empty. ")
-    }${kind === "grid" ? "" : costs(tree, said)}`;
+    }${grid ? "" : done === splits ? costs(tree, said) : noCosts(said)}`;
   };
   const bar = sliders.bar;
   show();
-  bar.prepend(
-    html("div", { class: "steps" }, ...(kind === "grid" ? [] : [step("built", -1), step("built", 1)]), step("walk", -1), step("walk", 1)),
+  bar.prepend(html("div", { class: "steps" }, step("built", -1), step("built", 1), step("walk", -1), step("walk", 1)));
+  let shown = { built: 0, walk: 0 };
+  const setBoth = (both: typeof shown) => {
+    sliders.set("built", both.built);
+    sliders.set("walk", both.walk);
+    show();
+  };
+  whenPrinted(
+    () => {
+      shown = { built: sliders.value("built"), walk: sliders.value("walk") };
+      setBoth({ built: 1, walk: 1 });
+    },
+    () => setBoth(shown),
   );
   return frame(
     id,
@@ -191,6 +225,12 @@ export function buildFigure({ settings, data }: FigureJson, id: string): HTMLEle
     said,
     say("Drag a disc or either end of the ray. Filled: what the ray came to, darker where discs were tested; their outlines are bold."),
   );
+}
+
+/** Before it is built nothing is told of what it costs. */
+function noCosts(said: HTMLElement): string {
+  for (const key of ["expected", "counted", "overlap"]) delete said.dataset[key];
+  return "";
 }
 
 /** What the whole tree costs a line: foretold by perimeters, and counted. */

@@ -38,6 +38,7 @@ export interface Slide {
   steps: HTMLElement[];
   notes: HTMLElement;
   minutes: number;
+  beyond: boolean; // may be left out
 }
 
 /** What is asked stands there at once, with the figure that it is asked of; the rest is revealed. */
@@ -51,7 +52,9 @@ function slideOf(element: HTMLElement, at: number): Slide {
   heading.setAttribute("aria-level", "1"); // of what is shown it is the first
   if (steps[0]?.matches(".figure, .question")) steps.shift();
   if (element.querySelector(".step.question")) element.classList.add("asks");
-  return { element, heading: heading.textContent!, steps, notes, minutes: Number(notes.dataset.minutes) };
+  const beyond = notes.dataset.beyond !== undefined;
+  if (beyond) element.append(html("p", { class: "beyond" }, say("may be left out")));
+  return { element, heading: heading.textContent!, steps, notes, minutes: Number(notes.dataset.minutes), beyond };
 }
 
 export class Lecture {

@@ -37,7 +37,7 @@ export class NotesWindow {
   /** `left`: steps of the slide that are to come. */
   show(slides: Slide[], at: number, left: number): void {
     if (!this.window || this.window.closed) return;
-    const { heading, notes, minutes } = slides[at]!,
+    const { heading, notes, minutes, beyond } = slides[at]!,
       next = slides[at + 1];
     this.planned = slides.slice(0, at + 1).reduce((sum, slide) => sum + slide.minutes, 0);
     const text = html("div", { class: "notes-text" });
@@ -47,7 +47,7 @@ export class NotesWindow {
       html(
         "p",
         {},
-        say`Slide ${at + 1} of ${slides.length}, ${minutes} min. ${left === 0 ? say("All of it is shown.") : say`${left} more to show.`}`,
+        say`Slide ${at + 1} of ${slides.length}, ${minutes} min${beyond ? say(", may be left out") : ""}. ${left === 0 ? say("All of it is shown.") : say`${left} more to show.`}`,
       ),
       html("h1", {}, heading),
       text,

@@ -4,18 +4,54 @@ import { meetCircle, type Circle, type Vec2 } from "./flatland";
 import { boxAround, lineInside, type WalkStep } from "./small_tree";
 import { outlineOf, type Box } from "./structure_walk";
 
-/** Cells along each axis: `k` for each disc and axis, as in k · N^(1/2) in a plane, so that they are about square. */
+/** Cells along each axis: `k` for each disc and axis, as in k · N^(1/2) in a plane, so that they are about square; for k = 0 one cell. */
 export function gridSize([left, right, bottom, top]: Box, count: number, k: number): [number, number] {
   const side = Math.sqrt(((right - left) * (top - bottom)) / count) / k;
   return [Math.max(1, Math.round((right - left) / side)), Math.max(1, Math.round((top - bottom) / side))];
 }
 
+const boxOf = ({ center: [x, y], radius: r }: Circle): Box => [x - r, x + r, y - r, y + r];
+
+interface SmallGrid {
+  box: Box;
+  columns: number;
+  rows: number;
+  wide: number; // of a cell
+  high: number;
+}
+function gridOver(discs: Circle[], k: number): SmallGrid {
+  const box = boxAround(discs.map(boxOf)),
+    [columns, rows] = gridSize(box, discs.length, k);
+  return { box, columns, rows, wide: (box[1] - box[0]) / columns, high: (box[3] - box[2]) / rows };
+}
+const cellOf = ({ box: [left, , bottom], wide, high }: SmallGrid, x: number, y: number): Box => [
+  left + x * wide,
+  left + (x + 1) * wide,
+  bottom + y * high,
+  bottom + (y + 1) * high,
+];
+/** Whether the disc's box touches the cell. */
+const touches = (disc: Circle, [left, right, bottom, top]: Box): boolean => {
+  const [from, to, low, high] = boxOf(disc);
+  return to >= left && from <= right && high >= bottom && low <= top;
+};
+
+/** The cells of a grid with lists: those that each disc is entered into, as outlines, and how many there are in all. */
+export function fillCells(discs: Circle[], k: number): { all: number; lists: { name: string; outline: Vec2[] }[][] } {
+  const grid = gridOver(discs, k),
+    cells = Array.from({ length: grid.columns * grid.rows }, (_, i) => [i % grid.columns, Math.floor(i / grid.columns)] as const);
+  const lists = discs.map((disc) =>
+    cells
+      .filter(([x, y]) => touches(disc, cellOf(grid, x, y)))
+      .map(([x, y]) => ({ name: `(${x}, ${y})`, outline: outlineOf(cellOf(grid, x, y)) })),
+  );
+  return { all: cells.length, lists };
+}
+
 export function walkCells(discs: Circle[], k: number, origin: Vec2, direction: Vec2): WalkStep[] & { lines: Vec2[][] } {
-  const box = boxAround(discs.map(({ center: [x, y], radius: r }): Box => [x - r, x + r, y - r, y + r])),
-    [left, , bottom] = box,
-    [columns, rows] = gridSize(box, discs.length, k),
-    wide = (box[1] - left) / columns,
-    high = (box[3] - bottom) / rows;
+  const grid = gridOver(discs, k),
+    { box, columns, rows, wide, high } = grid,
+    [left, , bottom] = box;
   const lines = [
     ...Array.from({ length: columns + 1 }, (_, i): Vec2[] => [
       [left + i * wide, bottom],
@@ -46,16 +82,8 @@ export function walkCells(discs: Circle[], k: number, origin: Vec2, direction: V
     const more = ([0, 1] as const).map((axis) => Math.abs(size[axis] / direction[axis]));
     for (;;) {
       const [x, y] = at as [number, number],
-        cell: Box = [left + x * wide, left + (x + 1) * wide, bottom + y * high, bottom + (y + 1) * high];
-      const here = discs.flatMap(({ center, radius }, i) =>
-        center[0] + radius >= cell[0] &&
-        center[0] - radius <= cell[1] &&
-        center[1] + radius >= cell[2] &&
-        center[1] - radius <= cell[3] &&
-        !tested.has(i)
-          ? [i]
-          : [],
-      );
+        cell = cellOf(grid, x, y),
+        here = discs.flatMap((disc, i) => (touches(disc, cell) && !tested.has(i) ? [i] : []));
       for (const i of here) {
         tested.add(i);
         const hit = meetCircle(origin, direction, discs[i]!)?.find((d) => d > 0);

@@ -7,6 +7,7 @@ import { html } from "../svg";
 import { texelDrawing } from "../texel_drawing";
 import { story } from "../words";
 import type { FigureJson } from "./figures";
+import { whenPrinted } from "./printed";
 import { PicturePointer } from "./picture_pointer";
 import { say } from "./say";
 
@@ -37,16 +38,33 @@ function cameraPicture(drawn: ImageData, done: number): ImageData {
   return image;
 }
 
-export async function twoPassesFigure({ data }: FigureJson, id: string): Promise<HTMLElement> {
+/** In shadow, and rightly so: nearest to the picture's middle; where there is none, what there is to see. */
+function shadowedPixel(light: Light): Pixel {
+  let best = -1,
+    least = Infinity;
+  light.label.forEach((label, i) => {
+    const away = Math.hypot((i % page.width) - page.width / 2, Math.floor(i / page.width) - page.height / 2);
+    if (label === 0 && light.truth[i] === 0 && light.drawn[i] === 0 && away < least) [best, least] = [i, away];
+  });
+  return best < 0 ? examplePixel(light) : light.pixel(best % page.width, Math.floor(best / page.width));
+}
+
+export async function twoPassesFigure({ settings, data }: FigureJson, id: string): Promise<HTMLElement> {
   const { comparison } = data as { comparison: string },
     light = await Light.load(0, comparison),
     { size } = light.json.view;
   const drawn = exposed(light.pixels, "raster", 0);
-  const range = html("input", { type: "range", min: "0", max: String(steps), step: "1", value: String(steps) });
+  const range = html("input", {
+    type: "range",
+    min: "0",
+    max: String(steps),
+    step: "1",
+    value: String(steps * Number(settings.passes ?? 1)),
+  });
   const said = html("p", { class: "bias-counts", role: "status" }),
     words = html("p", { class: "story" }),
     drawing = html("div", { class: "live-drawing" });
-  let shown: Pixel = examplePixel(light),
+  let shown: Pixel = shadowedPixel(light),
     frame = 0;
   const camera = new PicturePointer(page, say("The camera's view; choose a pixel"), (x, y) => {
     shown = light.pixel(x, y);
@@ -101,6 +119,18 @@ export async function twoPassesFigure({ data }: FigureJson, id: string): Promise
   };
   range.addEventListener("input", later);
   show();
+  let before = range.value;
+  const put = (value: string) => {
+    range.value = value;
+    show();
+  };
+  whenPrinted(
+    () => {
+      before = range.value;
+      put(String(steps));
+    },
+    () => put(before),
+  );
   return html(
     "div",
     { id },

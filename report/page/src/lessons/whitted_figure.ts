@@ -5,6 +5,7 @@ import { html, number, svg } from "../svg";
 import { add, dot, length, meetCircle, meetSegment, sub, unit, type Circle, type Segment, type Vec2 } from "./flatland";
 import type { FigureJson } from "./figures";
 import { frame, world2, type FlatlandJson } from "./flatland_figure";
+import { whenPrinted } from "./printed";
 import { Sliders, Stage } from "./stage";
 import { many, say } from "./say";
 
@@ -217,7 +218,7 @@ function treeOf(rays: readonly Ray[], last: Ray | undefined): SVGElement {
   return drawing;
 }
 
-export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
+export function whittedFigure({ settings, data }: FigureJson, id: string): HTMLElement {
   const json = data as WhittedJson,
     { segments: floor, circles: balls } = world2(json),
     { window } = json,
@@ -246,7 +247,7 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
   });
   const sliders: Sliders<string> = new Sliders<string>(
     {
-      step: { name: say("Rays"), from: 0, to: 1, step: 0.001, value: 1, text: (v) => percent(v) },
+      step: { name: say("Rays"), from: 0, to: 1, step: 0.001, value: Number(settings.step ?? 1), text: (v) => percent(v) },
       eyeX: slider(say("Eye, left and right"), 0.05),
       eyeY: slider(say("Eye, up and down"), 0.45),
       aimX: slider(say("Aim, left and right"), shareX(balls[0]!.center[0] - 0.2)),
@@ -306,6 +307,18 @@ export function whittedFigure({ data }: FigureJson, id: string): HTMLElement {
     }`;
   };
   show();
+  let shown = 1;
+  const setStep = (value: number) => {
+    sliders.set("step", value);
+    show();
+  };
+  whenPrinted(
+    () => {
+      shown = sliders.value("step");
+      setStep(1);
+    },
+    () => setStep(shown),
+  );
   sliders.bar.prepend(html("div", { class: "steps" }, step(-1), step(1)));
   const figure = frame(
     id,
