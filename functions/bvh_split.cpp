@@ -1,7 +1,8 @@
-// How a tree of boxes parts its triangles: by the middle of their centres, along the axis where these reach farthest. A case's numbers
-// are how many triangles there are, and nine for each.
+// How a tree of boxes parts its triangles: at the middle one, along the axis where their box is longest, as raytrace/accel/median_bvh.cpp
+// does. A case's numbers are how many triangles there are, and nine for each.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "functions/make_questions.h"
 #include "functions/parts.h"
@@ -12,11 +13,12 @@ namespace {
 constexpr std::size_t most_triangles = 6, split_numbers = 1 + 9 * most_triangles;
 
 /// Which triangles go left: by the rule, or by one that is mistaken for it.
-enum class Rule : std::uint8_t { middle, box_axis, box_middle, mean, median, box_centers, axis_x };
+enum class Rule : std::uint8_t { median, center_axis, space, mean, corners, axis_x };
 
 struct Triangle {
-  Vec3 center{0.0};  ///< the mean of the three
+  Vec3 corners{0.0};  ///< the sum of the three
   Aabb box;
+  Vec3 center() const { return box.center(); }
 };
 
 std::vector<Triangle> triangles_of(Numbers n) {
@@ -24,52 +26,69 @@ std::vector<Triangle> triangles_of(Numbers n) {
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 corner = vector_at(n, 1 + 9 * i + 3 * k);
-      all[i].center += corner;
+      all[i].corners += corner;
       all[i].box.grow(corner);
     }
-  // Divided at last, so that equal sums are one place.
-  for (Triangle& one : all) one.center /= 3.0;
   return all;
 }
 
 struct Plan {
   int left = 0;  ///< bit i: triangle i goes left
   int axis = 0;
-  double middle = 0.0;
   bool in_one_place = false;
   bool is_close = false;  ///< single precision may part them otherwise
 };
 
-double middle_of(const std::vector<Triangle>& all, const Aabb& centers, const Aabb& boxes, int axis,
-                 Rule rule) {
-  std::vector<double> places;
-  double sum = 0.0;
-  for (const Triangle& one : all) places.push_back(one.center[axis]), sum += one.center[axis];
-  std::sort(places.begin(), places.end());
-  if (rule == Rule::median) return places[places.size() / 2];
-  if (rule == Rule::mean) return sum / static_cast<double>(all.size());
-  return (rule == Rule::box_middle ? boxes : centers).center()[axis];
+int axis_of(const std::vector<Triangle>& all, Rule rule, bool& is_close) {
+  Aabb box;
+  for (const Triangle& one : all)
+    if (rule == Rule::center_axis)
+      box.grow(one.center());
+    else
+      box.grow(one.box);
+  const Vec3 extent = box.extent();
+  const int axis = rule == Rule::axis_x ? 0 : longest_axis(extent);
+  is_close = extent[axis] - std::max(extent[(axis + 1) % 3], extent[(axis + 2) % 3]) < 1e-3 * extent[axis];
+  return axis;
 }
 
-Plan plan(std::vector<Triangle> all, Rule rule = Rule::middle) {
-  Aabb centers, boxes;
-  for (Triangle& one : all) {
-    if (rule == Rule::box_centers) one.center = one.box.center();
-    centers.grow(one.center), boxes.grow(one.box);
-  }
-  const Vec3 extent = (rule == Rule::box_axis ? boxes : centers).extent();
+/// The half of the triangles that comes first. Of equal places the lower number does.
+int first_half(const std::vector<double>& places) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+  int left = 0;
+  for (std::size_t i = 0; i < order.size() / 2; ++i) left |= 1 << order[i];
+  return left;
+}
+
+int below(const std::vector<double>& places, double middle) {
+  int left = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) left |= places[i] < middle ? 1 << i : 0;
+  return left;
+}
+
+Plan plan(const std::vector<Triangle>& all, Rule rule = Rule::median) {
   Plan out;
-  out.axis = rule == Rule::axis_x ? 0 : longest_axis(extent);
-  out.middle = middle_of(all, centers, boxes, out.axis, rule);
-  const double longest = extent[out.axis], close = 1e-3 * longest;
-  out.in_one_place = longest == 0.0;
-  out.is_close =
-      longest > 0.0 && longest - std::max(extent[(out.axis + 1) % 3], extent[(out.axis + 2) % 3]) < close;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double below = out.middle - all[i].center[out.axis];
-    out.is_close = out.is_close || std::abs(below) < close;
-    out.left |= (out.in_one_place ? i < all.size() / 2 : below > 0.0) ? 1 << i : 0;
+  out.axis = axis_of(all, rule, out.is_close);
+  std::vector<double> places;
+  double low = infinity, high = -infinity, sum = 0.0;
+  for (const Triangle& one : all) {
+    places.push_back((rule == Rule::corners ? one.corners / 3.0 : one.center())[out.axis]);
+    low = std::min(low, one.box.min[out.axis]), high = std::max(high, one.box.max[out.axis]);
+    sum += places.back();
   }
+  if (rule == Rule::space || rule == Rule::mean) {
+    out.left =
+        below(places, rule == Rule::space ? 0.5 * (low + high) : sum / static_cast<double>(all.size()));
+    return out;
+  }
+  out.left = first_half(places);
+  std::sort(places.begin(), places.end());
+  out.in_one_place = places.front() == places.back();
+  const double gap = places[places.size() / 2] - places[places.size() / 2 - 1];
+  out.is_close = out.is_close || (!out.in_one_place && gap < 1e-3 * (high - low));
   return out;
 }
 
@@ -77,14 +96,15 @@ Right split_right(Numbers n) {
   const Plan right = plan(triangles_of(n));
   return {{static_cast<double>(right.left)},
           right.is_close ? 64.0 : 0.25,
-          right.in_one_place ? "all centres are in one place"
-                             : fmt::format("the centres reach farthest along {}, whose middle is {:.4g}",
-                                           "xyz"[right.axis], right.middle)};
+          fmt::format("the box is longest along {}{}", "xyz"[right.axis],
+                      right.in_one_place ? ", and all centres are in one place" : "")};
 }
 
 std::string split_words(Numbers n) {
-  std::string text = "triangles with the centres";
-  for (const Triangle& one : triangles_of(n)) text += " " + words_of(one.center);
+  std::string text = "triangles with the boxes";
+  for (const Triangle& one : triangles_of(n))
+    text += fmt::format(" {} to {};", words_of(one.box.min), words_of(one.box.max));
+  text.pop_back();
   return text;
 }
 
@@ -117,22 +137,22 @@ std::vector<Question> split_questions() {
           append_triangle(q, question, dice, at + reach * dice.in_cube(2.0), size);
         question.numbers.resize(split_numbers);
         const std::vector<Triangle> all = triangles_of(question.numbers);
-        if (plan(all).is_close || (unlike != Rule::middle && plan(all, unlike).left == plan(all).left))
+        if (plan(all).is_close || (unlike != Rule::median && plan(all, unlike).left == plan(all).left))
           continue;
         q.put(std::move(question));
         return;
       }
     });
   };
-  group("plain", 6, Rule::middle, Vec3(0.3));
+  group("plain", 6, Rule::median, Vec3(0.3));
   group("axis", 6, Rule::axis_x, Vec3(0.3));
-  group("two", 2, Rule::middle, Vec3(0.3));
-  group("boxes", 5, Rule::box_axis, Vec3(1.5));
-  group("middle", 5, Rule::box_middle, Vec3(1.5));
+  group("two", 2, Rule::median, Vec3(0.3));
+  group("odd", 5, Rule::median, Vec3(0.3));
+  group("boxes", 5, Rule::center_axis, Vec3(1.5));
+  group("middle", 6, Rule::space, Vec3(0.3));
   group("uneven", 6, Rule::mean, Vec3(0.3));
-  group("median", 6, Rule::median, Vec3(0.3));
-  group("large", 5, Rule::box_centers, Vec3(2.0));
-  group("far", 6, Rule::middle, Vec3(0.3), {300.0, -200.0, 100.0});
+  group("large", 6, Rule::corners, Vec3(2.0));
+  group("far", 6, Rule::median, Vec3(0.3), {300.0, -200.0, 100.0});
   q.group("same", 2 * of_each, [&](int i) {
     Question question = q.made(2 + i % 5);
     for (int k = 0; k < 2 + i % 5; ++k)

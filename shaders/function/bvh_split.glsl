@@ -3,12 +3,12 @@
 // The program gives the corners of each triangle, whose numbers are 0 to triangles - 1 (two to six); corner is 0, 1 or 2.
 vec3 triangle_corner(int triangle, int corner);
 
-// A triangle's centre is the mean of its corners. The axis is the one along which the centres reach farthest; the triangles whose centre
-// lies below the middle between the lowest and the highest centre go left. Where all centres are one place the first half of them goes
-// left (triangles / 2). Returns the sum of 1 << number of those that go left: 5 for the triangles 0 and 2.
+// A triangle's centre is the middle of its own box. The axis is the one along which the box around all triangles is longest. In the order
+// of their centres along it the first half of the triangles goes left (triangles / 2); of equal centres the lower number comes first.
+// Returns the sum of 1 << number of those that go left: 5 for the triangles 0 and 2.
 int bvh_split(int triangles) {
-  // TODO 1: the lowest and the highest coordinates of the centres. Along which axis are they farthest apart?
-  // TODO 2: where is the middle? Which centres lie below it?
-  // TODO 3: what if all centres are one place?
+  // TODO 1: the box around all triangles. Along which axis is it longest?
+  // TODO 2: where along that axis is the middle of each triangle's own box?
+  // TODO 3: how many triangles come before this one? Does it belong to the first half?
   return 0;
 }

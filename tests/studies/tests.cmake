@@ -53,6 +53,7 @@ gnomon_test(grade_gl_test
   SOURCES grade_gl_test.cpp grade_rubrics_gl_test.cpp grade_class_gl_test.cpp
   LIBS app_process nlohmann_json::nlohmann_json PARTS 5)
 add_dependencies(grade_gl_test gnomon_programs)
+gnomon_test(functions_split_test SOURCES functions_split_test.cpp LIBS gnomon::functions gnomon::raytrace gnomon::scene)
 gnomon_test(grade_functions_gl_test
   SOURCES grade_functions_gl_test.cpp grade_filter_gl_test.cpp grade_platforms_gl_test.cpp grade_macros_gl_test.cpp
   LIBS gnomon::grade app_process nlohmann_json::nlohmann_json PARTS 4)
