@@ -77,7 +77,9 @@ std::vector<std::string> kit_names();
 bool is_kit(const std::string& name);
 
 /// Writes the kit, all of it or nothing: rubric.json, its scenes, README.md, and student/ with the shader to be filled in.
-/// Errors (cannot write): a file of another content is there already.
-Expected<void> write_kit(const std::string& name, const std::string& folder);
+/// `called`: how the program was started, which README.md repeats. Of a path such as "./gnomon" its commands are those of the folder in
+/// which it was typed. Errors (cannot write): a file of another content is there already.
+Expected<void> write_kit(const std::string& name, const std::string& folder,
+                         const std::string& called = "gnomon");
 
 }  // namespace gnomon::grade

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -25,6 +26,43 @@ std::string place_in_kit(std::string_view name) {
 }
 
 using KitFiles = std::vector<std::pair<std::string, std::string_view>>;  // places and bytes
+
+/// A command of the kit's, "gnomon shaders --call bvh_walk --shader-dir student", as it is typed where `called` leads to the program.
+std::string command_as_typed(std::string_view command, const std::string& folder, const std::string& called) {
+  constexpr std::array<std::string_view, 3> files{"student", "rubric.json", "stage.json"};
+  std::string typed;
+  bool is_first = true;
+  for (std::size_t at = 0; at < command.size();) {
+    const std::size_t end = std::min(command.find(' ', at), command.size());
+    const std::string_view word = command.substr(at, end - at);
+    if (word == "#") return typed + std::string(command.substr(at));
+    const bool is_file = std::find(files.begin(), files.end(), word) != files.end();
+    typed += is_first ? called : is_file ? fmt::format("{}/{}", folder, word) : std::string(word);
+    if (end < command.size()) typed += ' ';
+    is_first = false;
+    at = end + 1;
+  }
+  return typed;
+}
+
+/// The README with every command as it is typed: those that begin a line, and those in backquotes.
+std::string readme_as_typed(std::string_view readme, const std::string& folder, const std::string& called) {
+  constexpr std::string_view program = "gnomon ";
+  std::string text;
+  for (std::size_t at = 0; at < readme.size();) {
+    const bool begins = at == 0 || readme[at - 1] == '\n' || readme[at - 1] == '`';
+    if (!begins || !readme.substr(at).starts_with(program)) {
+      text += readme[at++];
+      continue;
+    }
+    const std::size_t end = std::min(readme.find_first_of("\n`", at), readme.size());
+    text += command_as_typed(readme.substr(at, end - at), folder, called);
+    at = end;
+  }
+  const std::size_t title = text.find('\n');
+  return text.insert(title + 1,
+                     fmt::format("\nThe commands are for the folder in which `{}` is typed.\n", called));
+}
 
 /// The functions that the kit's rubric names, as the program has them to be filled in.
 KitFiles functions_begun(const KitFiles& kit) {
@@ -64,13 +102,19 @@ bool is_kit(const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Expected<void> write_kit(const std::string& name, const std::string& folder) {
+Expected<void> write_kit(const std::string& name, const std::string& folder, const std::string& called) {
+  std::string readme;
   const std::string prefix = std::string(root) + name + "/";
   KitFiles files;
   for (const embedded::Entry& entry : embedded::grade_kits_entries()) {
     if (!entry.name.starts_with(prefix)) continue;
     files.emplace_back(place_in_kit(entry.name.substr(prefix.size())), entry.bytes);
-    if (auto safe = check_nothing_differs(folder + "/" + files.back().first, entry.bytes); !safe) return safe;
+    if (files.back().first == "README.md" && called.find('/') != std::string::npos) {
+      readme = readme_as_typed(entry.bytes, folder, called);
+      files.back().second = readme;
+    }
+    if (auto safe = check_nothing_differs(folder + "/" + files.back().first, files.back().second); !safe)
+      return safe;
   }
   for (const auto& [place, bytes] : functions_begun(files)) {
     const std::string path = fmt::format("{}/{}", folder, place);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -38,6 +39,12 @@ struct GradeCommand {
   std::string command_line;
 };
 
+/// As ./gnomon was typed, which says so; else by name.
+std::string called() {
+  const char* script = std::getenv("GNOMON_CALLED");
+  return script == nullptr || *script == '\0' ? "gnomon" : script;
+}
+
 Expected<ExitCode> write_new_kit(const GradeCommand& command, Console& console) {
   const std::string name = command.rubric.empty() ? grade::kit_names().front() : command.rubric;
   if (!grade::is_kit(name))
@@ -46,7 +53,8 @@ Expected<ExitCode> write_new_kit(const GradeCommand& command, Console& console) 
                             fmt::join(grade::kit_names(), ", ")));
   if (!command.students.empty()) return fail(ErrorKind::usage, "--new: takes no students");
   const OutputGuard whole_outputs;
-  if (const auto written = grade::write_kit(name, command.kit_folder); !written) return fail(written.error());
+  if (const auto written = grade::write_kit(name, command.kit_folder, called()); !written)
+    return fail(written.error());
   console.message(fmt::format("{}: the steps are in {}/README.md", name, command.kit_folder));
   return ExitCode::done;
 }

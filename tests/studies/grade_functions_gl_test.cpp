@@ -230,6 +230,22 @@ TEST_F(GradeFunctions, AKitIsWholeAndItsPageShowsWhatIsWrong) {
     EXPECT_NE(page.find(shown), std::string::npos) << shown;
 }
 
+TEST_F(GradeFunctions, AKitsCommandsAreTypedAsTheProgramWasCalled) {
+  for (const auto& [called, command] : std::map<std::string, std::string>{
+           {"", "\ngnomon shaders --call bvh_walk --shader-dir student                 # how many"},
+           {"./gnomon",
+            "\n./gnomon shaders --call bvh_walk --shader-dir kit/student                 # how many"}}) {
+    setenv("GNOMON_CALLED", called.c_str(), 1);
+    fs::remove_all(folder / "kit");
+    ASSERT_EQ(gnomon({"grade", "--new", "kit", "rays-and-structures"}).exit_code, 0);
+    const std::string readme = read_file(folder / "kit/README.md");
+    EXPECT_NE(readme.find(command), std::string::npos) << readme;
+    EXPECT_EQ(readme.find("`gnomon ") == std::string::npos, !called.empty());
+    EXPECT_EQ(readme.find("\ngnomon ") == std::string::npos, !called.empty());
+  }
+  unsetenv("GNOMON_CALLED");
+}
+
 TEST_F(GradeFunctions, AFunctionIsTriedByHand) {
   const Words call{"shaders", "--call", "ray_box", "--shader-dir", answers_folder() + "/a"};
   EXPECT_NE(gnomon(call).out.find("inside     12 of 12 right\n"), std::string::npos) << gnomon(call).out;
