@@ -53,6 +53,20 @@ async function checkAxe(page, name) {
   }
 }
 
+/** Three ways on: to the lab, or its command to copy; to the exercise; back. */
+async function checkWays(page, name) {
+  const ways = page.locator(".ways .way");
+  assert.deepEqual(await ways.allTextContents(), ["This state in the lab", "This exercise", "Back"], name);
+  assert.match(await ways.nth(0).getAttribute("title"), /^Copies gnomon view [a-z]/, name);
+  await ways.nth(0).click();
+  await page.waitForFunction(() => document.querySelector(".ways .way").textContent === "Copied");
+  await ways.nth(1).click();
+  assert.equal(await page.evaluate(() => location.hash), "#exercise");
+  const heading = await page.locator("#exercise").textContent();
+  assert.ok(["Exercise", "Experiments"].includes(heading), `${name}: ${heading}`);
+  await page.evaluate(() => history.replaceState(null, "", location.pathname));
+}
+
 /** From the first slide to the last by keys; each shows something and fits the screen. */
 async function checkSlides(page, name) {
   await page.click(".open-slides");
@@ -211,6 +225,16 @@ async function checkWhole() {
   );
   await checkAxe(linked, "a slide");
   await close(linked);
+  // Back is where one came from, and from a page by itself all lessons.
+  const way = await at("bias.html");
+  const follow = async (link) => {
+    await way.click(link);
+    await way.waitForFunction(() => document.documentElement.dataset.ready === "true");
+    return way.url().split("/").at(-1);
+  };
+  assert.equal(await follow(".lesson-text a[href='precision.html']"), "precision.html");
+  assert.equal(await follow(".ways .way:last-child"), "bias.html");
+  await way.context().close();
   const plain = await at("acne.html", { javaScriptEnabled: false });
   assert.ok(await plain.locator(".lesson-text img").first().isVisible());
   await close(plain);
@@ -227,6 +251,7 @@ try {
     await checkFigures(page);
     await checkSliderEnds(page);
     if (name !== "index.html") await checkSlides(page, name);
+    if (name !== "index.html") await checkWays(page, name);
   }
   await checkLanguage(page, site, pages);
   await close(page);

@@ -8,6 +8,7 @@ import { startFigures } from "./figures";
 import { Lecture } from "./lecture";
 import { SlideView } from "./slides";
 import { say } from "./say";
+import { addWays } from "./ways";
 
 async function start(): Promise<void> {
   for (const code of document.querySelectorAll<HTMLElement>("code.language-sh")) code.parentElement!.after(copyButton(code, say("Copy")));
@@ -17,7 +18,10 @@ async function start(): Promise<void> {
   await startFigures((host) => lecture?.refit(host));
   await lecture?.fitAll();
   const lesson = document.querySelector<HTMLElement>(".lesson-text");
-  if (lesson?.querySelector(".part h2")) new SlideView(lesson);
+  if (lesson?.querySelector(".part h2")) {
+    new SlideView(lesson);
+    addWays(lesson);
+  }
   document.documentElement.dataset.ready = "true";
 }
 void start();
