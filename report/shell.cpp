@@ -131,4 +131,12 @@ BuiltPage build_page(const PageShell& shell) {
   return out;
 }
 
+std::string static_page(std::string_view title, std::string_view main) {
+  const Template built = page_template("page.html");
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}<style>{}</style>\n</head>\n"
+      "<body>\n<main id=\"main\">\n{}</main>\n</body>\n</html>\n",
+      page_head({title, built.style}), built.style, main);
+}
+
 }  // namespace gnomon::report

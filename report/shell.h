@@ -49,6 +49,9 @@ struct PageShell {
 
 BuiltPage build_page(const PageShell& shell);
 
+/// A page in the report's style that needs no script and has none; `main` is what <main> holds.
+std::string static_page(std::string_view title, std::string_view main);
+
 /// What a data file holds, and the JSON text in such a file.
 std::string data_file(const DataPart& part);
 std::string_view data_in_file(std::string_view file);

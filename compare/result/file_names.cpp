@@ -32,14 +32,20 @@ std::string in_small_letters(std::string text) {
 
 }  // namespace
 
-std::string light_file_part(const Comparison& c, const LightComparison& light) {
-  const std::string own = sanitised(light_of(c, light).name);
+std::string light_file_part(std::span<const std::string> names, std::size_t which, std::size_t number) {
+  const std::string own = sanitised(names[which]);
   std::set<std::string> seen{""};
   bool all_differ = true;
-  for (const LightComparison& other : c.lights)
-    if (!seen.insert(in_small_letters(sanitised(light_of(c, other).name))).second) all_differ = false;
+  for (const std::string& other : names)
+    if (!seen.insert(in_small_letters(sanitised(other))).second) all_differ = false;
   if (all_differ) return own;
-  return (own.empty() ? "light" : own) + "-" + std::to_string(light.light);
+  return (own.empty() ? "light" : own) + "-" + std::to_string(number);
+}
+
+std::string light_file_part(const Comparison& c, const LightComparison& light) {
+  std::vector<std::string> names;
+  for (const LightComparison& other : c.lights) names.push_back(light_of(c, other).name);
+  return light_file_part(names, std::size_t(&light - c.lights.data()), light.light);
 }
 
 std::string aov_path(const Comparison& c, const LightComparison& light, const std::string& path) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,8 +50,10 @@ inline std::string_view drawn_technique(const Comparison& c) {
   return c.raster.has_known_map() ? technique_name(c.raster.options.map.technique) : "unknown";
 }
 
-/// A light's name as a part of a file name, unique among the lights compared.
+/// A light's name as a part of a file name, unique among the lights compared; `light` is one of them.
 std::string light_file_part(const Comparison& comparison, const LightComparison& light);
+/// The same by the names of all lights compared; `number`: that of this light in the scene.
+std::string light_file_part(std::span<const std::string> names, std::size_t which, std::size_t number);
 /// Where one light's channels go: `path` itself, or with "-NAME" before the extension when there are several
 /// lights.
 std::string aov_path(const Comparison& comparison, const LightComparison& light, const std::string& path);

@@ -34,6 +34,8 @@ Rgb8Image difference_picture(const Comparison& comparison, const LightComparison
 Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& light);
 /// Each error in the colour of its label, as strong as it is; grey where all is right.
 Rgb8Image label_picture(const LightComparison& light);
+/// One pixel of it: its truth is shadow (one half and less lit) or not, and it errs by so much.
+glm::u8vec3 label_pixel(Label label, bool truly_dark, float error);
 /// |V6 - V0|, FLIP and 1 - SSIM of the visibility pictures, each on magma from 0 to 1; black where nothing is
 /// compared. FLIP and SSIM need the light's maps.
 Rgb8Image error_picture(const LightComparison& light);

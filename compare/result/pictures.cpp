@@ -59,15 +59,17 @@ Rgb8Image difference_picture(const Rgb8Image& drawn, const LightComparison& ligh
   });
 }
 
+glm::u8vec3 label_pixel(Label label, bool truly_dark, float error) {
+  const glm::u8vec3 right = truly_dark ? right_in_shadow_colour : label_colour(Label::right);
+  if (!has_cause(label)) return label == Label::right ? right : label_colour(label);
+  return glm::u8vec3(glm::mix(Vec3f(right), Vec3f(label_colour(label)), std::min(error, 1.0f)) + 0.5f);
+}
+
 Rgb8Image label_picture(const LightComparison& light) {
   const Image<float>& truth = light.rungs[static_cast<std::size_t>(Rung::truth)];
   const Image<float>& drawn = light.rungs[static_cast<std::size_t>(Rung::drawn)];
   return picture(light.labels.size, [&](std::size_t i) {
-    const Label label = light.labels.data[i];
-    const glm::u8vec3 right = truth.data[i] < 0.5f ? right_in_shadow_colour : label_colour(Label::right);
-    if (!has_cause(label)) return label == Label::right ? right : label_colour(label);
-    const float error = std::min(std::abs(drawn.data[i] - truth.data[i]), 1.0f);
-    return glm::u8vec3(glm::mix(Vec3f(right), Vec3f(label_colour(label)), error) + 0.5f);
+    return label_pixel(light.labels.data[i], truth.data[i] < 0.5f, std::abs(drawn.data[i] - truth.data[i]));
   });
 }
 

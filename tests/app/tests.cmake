@@ -13,7 +13,7 @@ if(NOT GNOMON_SANITIZE)
   set(campaign /usr/bin/python3 "${CMAKE_CURRENT_SOURCE_DIR}/faults/campaign.py" "$<TARGET_FILE:gnomon_program>"
     "$<TARGET_FILE:fault_injector>")
   add_test(NAME faults_test COMMAND ${campaign} --points 50
-    --only export --only merge --only shaders --only "grade --new" --only plan --only scenes --only completion --only "man page")
+    --only diff --only export --only merge --only shaders --only "grade --new" --only plan --only scenes --only completion --only "man page")
   add_test(NAME faults_resources_test COMMAND ${campaign} --points 36 --kind malloc --kind large-malloc --kind thread --kind descriptor
     --only export --only merge --only shaders)
   add_test(NAME faults_interrupted_test COMMAND ${campaign} --points 40 --error EINTR

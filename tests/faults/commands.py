@@ -70,6 +70,7 @@ COMMANDS = [
     command("sweep", "sweep", *SWEEP, "-o", "out", other=["sweep", *SWEEP, "-o", "out"], resumes=True),
     command("sweep resumed", "sweep", *SWEEP, "-o", "out", other=["copy", "in/half"], resumes=True),
     command("merge", "merge", "in/shard1", "in/shard2", "-o", "out", other=["merge", "in/shard1", "in/shard2", "-o", "out"]),
+    command("diff", "diff", "in/before", "in/after", "-o", "out", other=["diff", "in/after", "in/before", "-o", "out"]),
     command("grade", "grade", "in/rubric.json", "in/class", "--jobs", "1", "-o", "out",
             other=["grade", "in/rubric.json", "in/class/ada", "-o", "out"], grades=True),
     command("grade functions", "grade", "in/functions.json", "in/functions", "--jobs", "1", "-o", "out",
@@ -182,6 +183,8 @@ def make_inputs(program, folder, environment):
     for shard in ("1", "2"):
         run("sweep", *SWEEP, "--shard", f"{shard}/2", "-o", f"in/shard{shard}")
     run("sweep", *SWEEP, "-o", "in/half")
+    run("compare", "acne-floor", *SMALL, "-o", "in/before")
+    run("compare", "acne-floor", *SMALL, "--bias", "0", "-o", "in/after")
     journal = into / "half/sweep.jsonl"
     lines = journal.read_bytes().splitlines(keepends=True)
     journal.write_bytes(b"".join(lines[:-2]))

@@ -6,6 +6,11 @@ gnomon_test(sweep_engine_gl_test TIMEOUT 900
 gnomon_test(sweep_program_gl_test TIMEOUT 900 SOURCES sweep_program_gl_test.cpp tune_program_gl_test.cpp tune_lights_gl_test.cpp views_program_gl_test.cpp LIBS gnomon::compare nlohmann_json::nlohmann_json)
 add_dependencies(sweep_program_gl_test gnomon_programs)
 
+# Two results of one scene.
+gnomon_test(diff_pixels_test SOURCES diff_pixels_test.cpp LIBS gnomon::studies)
+gnomon_test(diff_program_gl_test SOURCES diff_program_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
+add_dependencies(diff_program_gl_test gnomon_programs)
+
 gnomon_test(shimmer_gl_test
   SOURCES shimmer_gl_test.cpp shimmer_parts_test.cpp
   LIBS small_scenes gnomon::studies nlohmann_json::nlohmann_json)
