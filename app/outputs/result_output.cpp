@@ -66,41 +66,71 @@ Expected<report::WrittenOutputs> write_all(const ResultOutput& output, const com
   return written;
 }
 
-/// Holds one light against --fail-above; the words say what is too much.
-bool passes(const compare::Threshold& threshold, const std::string& light,
-            const compare::LightFigures& figures, Console& console) {
+using Outcome = Annotation::Outcome;
+
+/// Holds one light against --fail-above; the words say what is too much, or else how much there is.
+Annotation judge_light(const ResultOutput& output, const compare::LightFigures& figures) {
+  const std::string found = compare::figure_words(figures, *output.measure);
+  if (!output.fail_above) return {.said = found};
+  const compare::Threshold& threshold = *output.fail_above;
+  const std::string words = compare::figure_words(figures, *threshold.measure);
   const std::string limit = compare::threshold_text(threshold);
-  if (compare::exceeds(threshold, figures)) {
-    console.message(fmt::format("light {}: {}; that is more than --fail-above {}", light,
-                                compare::figure_words(figures, *threshold.measure), limit));
-    return false;
-  }
-  if (!compare::too_uncertain(threshold, figures)) return true;
-  console.message(fmt::format(
-      "light {}: {} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above "
-      "{} allows to be wrong: the truth there lies within its own error bound (--precision exact decides "
-      "rays; lights with size want more --samples, or a limit of the mean error, such as mean:1%)",
-      light, compare::grouped(compare::unknown_pixels(figures, *threshold.measure)),
-      compare::grouped(figures.pixels.compared + figures.pixels.uncertain), limit));
-  return false;
+  if (compare::exceeds(threshold, figures))
+    return {.outcome = Outcome::exceeded,
+            .said = fmt::format("{}; that is more than --fail-above {}", words, limit)};
+  if (!compare::too_uncertain(threshold, figures)) return {.said = words};
+  return {
+      .outcome = Outcome::exceeded,
+      .said = fmt::format(
+          "{} of {} pixels that show a lit or shadowed surface are uncertain, more than --fail-above {} "
+          "allows to be wrong: the truth there lies within its own error bound (--precision exact decides "
+          "rays; lights with size want more --samples, or a limit of the mean error, such as mean:1%)",
+          compare::grouped(compare::unknown_pixels(figures, *threshold.measure)),
+          compare::grouped(figures.pixels.compared + figures.pixels.uncertain), limit)};
 }
 
-ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison, Console& console) {
-  ExitCode code = ExitCode::done;
-  if (!output.fail_above) return code;
+/// One for each light, or one for all where nothing can be said.
+std::vector<Annotation> verdicts(const ResultOutput& output, const compare::Comparison& comparison) {
+  const Scene& scene = *comparison.world->scene;
   const std::vector<compare::LightFigures> lights = compare::judged_lights(comparison);
-  if (compare::says_nothing(*output.fail_above, lights)) {
-    const bool empty = comparison.world->scene->is_empty_model;
-    console.message(fmt::format("{}, so nothing holds against --fail-above {}",
-                                empty ? "the file has no triangles" : "no pixel could be compared",
-                                compare::threshold_text(*output.fail_above)));
-    return ExitCode::threshold_exceeded;
+  if (output.fail_above && compare::says_nothing(*output.fail_above, lights))
+    return {{Outcome::exceeded, scene.name, "all lights",
+             fmt::format("{}, so nothing holds against --fail-above {}",
+                         scene.is_empty_model ? "the file has no triangles" : "no pixel could be compared",
+                         compare::threshold_text(*output.fail_above))}};
+  std::vector<Annotation> all;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    Annotation light = judge_light(output, lights[i]);
+    light.about = scene.name;
+    light.name = "light " + scene.lights[comparison.lights[i].light].name;
+    all.push_back(std::move(light));
   }
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    if (!passes(*output.fail_above, comparison.world->scene->lights[comparison.lights[i].light].name,
-                lights[i], console))
-      code = ExitCode::threshold_exceeded;
+  return all;
+}
+
+/// Says what is exceeded. Annotations are left in `annotations`.
+ExitCode judge_lights(const ResultOutput& output, const compare::Comparison& comparison,
+                      std::vector<Annotation>& annotations, Console& console) {
+  ExitCode code = ExitCode::done;
+  annotations = verdicts(output, comparison);
+  for (const Annotation& verdict : annotations) {
+    if (verdict.outcome == Outcome::kept) continue;
+    const bool is_light = verdict.name.starts_with("light ");
+    console.message(is_light ? verdict.name + ": " + verdict.said : verdict.said);
+    code = ExitCode::threshold_exceeded;
+  }
   return code;
+}
+
+std::string command_of(const compare::Comparison& comparison) {
+  return comparison.judged ? "judge" : "compare";
+}
+
+/// Several results are put together by who asked for them.
+bool gathers(const ResultOutput& output, const std::vector<Annotation>& annotations) {
+  if (output.annotations == nullptr) return false;
+  output.annotations->insert(output.annotations->end(), annotations.begin(), annotations.end());
+  return true;
 }
 
 /// Before result.json is written, so that what it takes is in its time budget: the system would take the
@@ -130,6 +160,7 @@ Expected<void> check_outputs(const ResultOutput& output, RunFiles& files) {
     if (const auto known = check_extension("--aov", output.aov, ".exr"); !known) return known;
   files.writes("--aov", output.aov);
   files.writes("--json", output.json);
+  files.writes("--annotate", output.annotate.path);
   files.writes_folder("-o", output.folder, report::page_file_names);
   return files.check();
 }
@@ -146,12 +177,15 @@ void say_verdict(ResultOutput& output, const compare::Comparison& comparison, Co
   output.verdict_is_said = true;
 }
 
-ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
-                      Console& console) {
-  const ExitCode code = judge_lights(output, comparison, console);
+Expected<ExitCode> print_result(const ResultOutput& output, compare::Comparison& comparison,
+                                LoadedScene& loaded, Console& console) {
+  std::vector<Annotation> annotations;
+  const ExitCode code = judge_lights(output, comparison, annotations, console);
+  const std::string command = command_of(comparison);
   std::string json = compare::result_json(comparison);
   give_back(comparison, loaded);
   print_data(compare::with_time_budget(std::move(json)));
+  if (auto put = put_annotations(output.annotate, command, annotations); !put) return fail(put.error());
   return code;
 }
 
@@ -172,11 +206,17 @@ Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison&
   else
     summary = (output.verdict_is_said ? "" : compare::verdict_in_short(comparison, colour)) +
               compare::figures_in_short(comparison, place, colour);
-  const ExitCode code = judge_lights(output, comparison, console);
+  std::vector<Annotation> annotations;
+  const ExitCode code = judge_lights(output, comparison, annotations, console);
+  const bool is_one_of_several = gathers(output, annotations);
+  if (!is_one_of_several && !output.annotate.path.empty())
+    written->elsewhere.push_back(
+        {output.annotate.path, annotation_file(output.annotate, command_of(comparison), annotations)});
   give_back(comparison, loaded);
   if (const auto result = report::write_result(*written); !result) return fail(result.error());
   if (output.json == "-") print_data(written->result);
   whole_outputs.reset();
+  if (!is_one_of_several) print_annotations(output.annotate, annotations);
   if (const StageLog* log = StageLog::current(); log != nullptr && output.verbose)
     summary += compare::time_budget_text(log->budget(), colour);
   if (prints) print_data(summary);
@@ -198,6 +238,7 @@ void add_result_limits(CLI::App& app, ResultOutput& output) {
   add_measured_limit(
       app, "--fail-above", {output.measure, output.fail_above},
       "exit with 1 when the error of any light is more than this, or so many pixels are uncertain", "never");
+  add_annotate(app, output.annotate);
   add_output(app, "--aov", output.aov, "FILE.exr",
              "also write every per-pixel number as 32-bit channels, one file per light [default off]");
   add_json(app, output.json, "the result");

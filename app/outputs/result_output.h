@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/invocation.h"
+#include "app/outputs/annotations.h"
 #include "app/session.h"
 #include "compare/measure/measure.h"
 #include "report/write_outputs.h"
@@ -20,14 +21,16 @@ struct ResultOutput {
   const compare::Figure* measure = &compare::wrong_and_mean();  ///< what errors are counted in
   std::optional<compare::Threshold> fail_above;
   double report_max_mb = report::default_report_max_mb;
-  bool no_report = false;  ///< no page; all other files as ever
+  Annotate annotate;
+  std::vector<Annotation>* annotations = nullptr;  ///< of several results, which are put together
+  bool no_report = false;                          ///< no page; all other files as ever
   bool quiet = false, verbose = false;
   bool verdict_is_said = false;  ///< by say_verdict()
 };
 
 /// -o; `default_folder` as its help says it.
 void add_result_output(CLI::App& app, ResultOutput& output, const std::string& default_folder);
-/// --report-max-mb, --measure, --fail-above, --aov, --json, --verbose, --quiet.
+/// --report-max-mb, --measure, --fail-above, --annotate, --aov, --json, --verbose, --quiet.
 void add_result_limits(CLI::App& app, ResultOutput& output);
 
 /// Adds them to what the run writes. Error where one cannot be written or would take another file's place,
@@ -41,8 +44,8 @@ void say_verdict(ResultOutput& output, const compare::Comparison& comparison, Co
 
 /// --json - alone: the result goes to stdout and nowhere else. Both give scene and comparison back before the
 /// time budget is taken.
-ExitCode print_result(const ResultOutput& output, compare::Comparison& comparison, LoadedScene& loaded,
-                      Console& console);
+Expected<ExitCode> print_result(const ResultOutput& output, compare::Comparison& comparison,
+                                LoadedScene& loaded, Console& console);
 /// `parts`: of a comparison in bands.
 Expected<ExitCode> write_folder(const ResultOutput& output, compare::Comparison& comparison,
                                 LoadedScene& loaded, const RunFiles& files, const Stopwatch& total,

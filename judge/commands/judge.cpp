@@ -139,13 +139,15 @@ struct SetInTheMaking {
   StagedFolder staged;
   judge::JudgedSet set{};
   std::vector<std::string> inputs{};
+  std::vector<Annotation> annotations{};
 };
 
 Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, SetInTheMaking& making,
                               Console& console) {
   const Stopwatch total;
   if (!named.capture) return fail(named.capture.error());
-  const ResultOutput output = folder_output(command, named, making.staged.path());
+  ResultOutput output = folder_output(command, named, making.staged.path());
+  output.annotations = &making.annotations;
   RunFiles files = inputs_of(*named.capture);
   if (const auto fine = check_outputs(output, files); !fine) return fail(fine.error());
   auto judged = judge_one(command, *named.capture, files, console);
@@ -195,8 +197,11 @@ Expected<ExitCode> judge_several(JudgeCommand& command, const std::vector<NamedC
     if (refused) console.message(refused->message());
     refused = judged.error();
     making->set.add_refused(named.name, refused->message());
+    making->annotations.push_back({Annotation::Outcome::failed, named.name, "capture", refused->message()});
   }
   if (const auto published = publish_set(*making); !published) return fail(published.error());
+  if (auto put = put_annotations(command.output.annotate, "judge", making->annotations); !put)
+    return fail(put.error());
   if (!command.output.quiet) print_data(judge::judged_table(making->set));
   console.message("report: " + command.output.folder + "/report.html");
   if (refused) return fail(*refused);

@@ -10,9 +10,11 @@
 #include "app/console.h"
 #include "app/options/option_kinds.h"
 #include "app/options/options.h"
+#include "app/outputs/annotations.h"
 #include "app/outputs/run_files.h"
 #include "app/process/interrupt.h"
 #include "scene/files/write_file.h"
+#include "studies/diff/words.h"
 
 namespace gnomon::app {
 
@@ -22,6 +24,7 @@ struct DiffCommand {
   std::vector<std::string> results;
   std::string baseline, folder, json;
   studies::DiffOptions options;
+  Annotate annotate;
   bool quiet = false;
 };
 
@@ -34,12 +37,26 @@ Expected<std::pair<std::string, std::string>> results_of(const DiffCommand& comm
               fmt::format("diff: needs two results, or one and --baseline (got {})", all.size()));
 }
 
+std::vector<Annotation> annotations_of(const studies::Diff& diff) {
+  std::vector<Annotation> all;
+  for (const studies::LightDiff& light : diff.lights) {
+    const bool exceeded = !light.too_much.empty();
+    all.push_back({exceeded ? Annotation::Outcome::exceeded : Annotation::Outcome::kept, diff.scene,
+                   "light " + light.name,
+                   exceeded ? light.too_much
+                            : fmt::format("{}; pixels: {}", studies::trend_name(light.trend),
+                                          studies::pixels_text(light))});
+  }
+  return all;
+}
+
 Expected<ExitCode> run_diff(const DiffCommand& command) {
   Console console(command.quiet);
   const auto results = results_of(command);
   if (!results) return fail(results.error());
   RunFiles files;
   files.writes("--json", command.json);
+  files.writes("--annotate", command.annotate.path);
   files.writes_folder("-o", command.folder, std::array<std::string_view, 2>{"report.html", "diff.json"});
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   const auto diff = studies::diff_results(results->first, results->second, command.options);
@@ -60,6 +77,8 @@ Expected<ExitCode> run_diff(const DiffCommand& command) {
       console.message(fmt::format("light {}; that is more than --fail-worse {} allows", light.too_much,
                                   compare::threshold_text(*command.options.fail_worse)));
   if (!command.folder.empty()) console.message(fmt::format("diff: {}/report.html", command.folder));
+  if (auto put = put_annotations(command.annotate, "diff", annotations_of(*diff)); !put)
+    return fail(put.error());
   return diff->too_much() ? ExitCode::threshold_exceeded : ExitCode::done;
 }
 
@@ -77,6 +96,7 @@ void add_options(CLI::App& app, DiffCommand& command) {
       "never");
   app.add_flag("--changed-scene", command.options.changed_scene,
                "compare them though the scene's file has changed in between [default off]");
+  add_annotate(app, command.annotate);
   add_json(app, command.json, "the diff");
   add_quiet(app, command.quiet);
 }

@@ -128,9 +128,15 @@ Expected<void> fill(const SweepCommand& command, const Plan& plan, LoadedScene& 
   return time_rounds(run, journal);
 }
 
-ExitCode announce(const SweepCommand& command, const studies::Headline& headline) {
-  if (!command.quiet)
-    for (const std::string& line : headline.lines()) print_data(one_line(line) + "\n");
+Expected<ExitCode> announce(const SweepCommand& command, const studies::Headline& headline) {
+  Annotation limit{.about = command.scene.name, .name = "all cells"};
+  for (const std::string& line : headline.lines()) {
+    if (!command.quiet) print_data(one_line(line) + "\n");
+    limit.said += (limit.said.empty() ? "" : " ") + line;
+  }
+  if (command.max_error) limit.name = "--max-error " + compare::threshold_text(*command.max_error);
+  if (!headline.limit_met) limit.outcome = Annotation::Outcome::exceeded;
+  if (auto put = put_annotations(command.annotate, "sweep", {&limit, 1}); !put) return fail(put.error());
   return headline.limit_met ? ExitCode::done : ExitCode::threshold_exceeded;
 }
 
@@ -186,6 +192,7 @@ Expected<ExitCode> run_sweep(SweepCommand& command) {
   files.reads(path_file(command.asked.film));
   files.reads_shaders(command.shader_folder);
   files.writes("--trace", command.trace);
+  files.writes("--annotate", command.annotate.path);
   files.writes_folder("-o", command.folder, studies::sweep_file_names);
   if (const auto fine = files.check(); !fine) return fail(fine.error());
   if (command.slurm_tasks) return run_on_slurm(command);
@@ -299,6 +306,7 @@ void add_options(CLI::App& app, SweepCommand& command) {
       "name the cheapest cell whose every light has at most this error, and exit with 1 when there "
       "is none; flip includes --perceptual",
       "none", true);
+  add_annotate(app, command.annotate);
   add_film_options(app, command.asked.film);
   add_view_options(app, command.views);
   add_report_max_mb(app, command.report_max_mb);

@@ -9,6 +9,7 @@
 
 #include "app/options/options.h"
 #include "app/options/view_options.h"
+#include "app/outputs/annotations.h"
 #include "app/strongest_lights.h"
 #include "compare/result/output_parts.h"
 #include "raster/frame.h"
@@ -50,6 +51,7 @@ struct SweepCommand : RunOptions {
   std::optional<compare::Threshold> max_error;
   FilmedMeasure asked;
   ViewListOptions views;
+  Annotate annotate;
   double report_max_mb = report::default_report_max_mb;
   bool zip = false, perceptual = false, ray_tracer = false, restart = false, quiet = false;
   bool full_records = false;  ///< line_json()
