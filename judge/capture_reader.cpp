@@ -250,9 +250,9 @@ void CaptureReader::read_filter(const JsonNode& node) {
   if (const auto read = object.find("read")) {
     since_2(*read, "read");
     filter.read = static_cast<FilterRead>(read->as_choice(choices(names_of(read_conventions))));
-    if (filter.read == FilterRead::linear_depths && filter.kind != FilterName::none)
-      read->error(
-          "linear_depths is one comparison, with kind none; pcf averages comparisons of single texels");
+    if (filter.read == FilterRead::linear_depths && filter.kind != FilterName::none &&
+        filter.kind != FilterName::pcf)
+      read->error("linear_depths is of the kinds none and pcf");
     if (filter.read == FilterRead::moments && !has_moments(filter.kind))
       read->error("moments are of the kinds vsm, esm, evsm and msm");
   }

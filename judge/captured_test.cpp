@@ -182,7 +182,7 @@ std::optional<double> DepthsTest::caster(const LightRecord& record, const MapLoo
 
 std::optional<double> DepthsTest::reach_texels(const raster::MapOptions& map) const {
   constexpr double two_by_two = 1.0;
-  return between_ ? two_by_two : CapturedTest::reach_texels(map);
+  return between_ && map.technique == raster::Technique::hard ? two_by_two : CapturedTest::reach_texels(map);
 }
 
 std::shared_ptr<CapturedTest> make_depths_test(const Capture& capture) {

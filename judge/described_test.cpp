@@ -41,7 +41,9 @@ class Checker {
                           is_hard() || reads_ != Reads::texel;
     // Far from the origin a receiver's floats lie that far apart, in whatever a renderer works out of them.
     place_ = lookup_rounding_texels + record_.rounding.float_world / record_.texel_world;
-    reach_ = compares ? place_ + (is_hard() ? 0.0 : map_.filter.radius_texels) : infinity;
+    // A tap that reads between texels lies one texel nearer than the farthest of the four.
+    const double taps = std::max(0.0, map_.filter.radius_texels - (reads_ == Reads::between ? 1.0 : 0.0));
+    reach_ = compares ? place_ + (is_hard() ? 0.0 : taps) : infinity;
   }
 
   bool may_draw(std::size_t pixel, float visibility, bool any_cascade) const;
@@ -66,7 +68,7 @@ class Checker {
     const double over = gap - record_.bias_constant_world;
     return lit ? over <= slack_ : over > -slack_;
   }
-  bool read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const;
+  bool read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit, double reach) const;
   bool some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit, double reach) const;
   bool is_mixed(std::size_t pixel) const;
 
@@ -79,13 +81,17 @@ class Checker {
   double place_ = 0.0, reach_ = 0.0;  // texels
 };
 
-/// Whether what is read between texels draws it, at the place or as far from it as rounding goes.
-bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit) const {
-  for (const Vec2& off : {Vec2(0, 0), Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)}) {
-    BiasedLookup there = lookup;
-    there.at.u += place_ * off.x, there.at.v += place_ * off.y;
-    if (draws(lookup, normal, compare::compared_caster(record_, there), lit)) return true;
-  }
+/// Whether what is read between texels draws it, at the place or within `reach` of it.
+bool Checker::read_between_draws(const BiasedLookup& lookup, const Vec3& normal, bool lit,
+                                 double reach) const {
+  constexpr double steps_in_texel = 2.0;
+  const int steps = std::max(1, static_cast<int>(std::ceil(steps_in_texel * reach)));
+  for (int j = -steps; j <= steps; ++j)
+    for (int i = -steps; i <= steps; ++i) {
+      BiasedLookup there = lookup;
+      there.at.u += reach * i / steps, there.at.v += reach * j / steps;
+      if (draws(lookup, normal, compare::compared_caster(record_, there), lit)) return true;
+    }
   return false;
 }
 
@@ -96,7 +102,8 @@ bool Checker::some_texel_draws(const BiasedLookup& lookup, const Vec3& normal, b
     return std::any_of(depths.begin(), depths.end(),
                        [&](const auto& depth) { return draws(lookup, normal, depth, lit); });
   }
-  if (reads_ != Reads::texel) return read_between_draws(lookup, normal, lit);
+  if (reads_ != Reads::texel)
+    return read_between_draws(lookup, normal, lit, reads_ == Reads::between ? reach : place_);
   const auto texel = [](double place) { return static_cast<int>(std::floor(place)); };
   const int left = texel(lookup.at.u - reach), right = texel(lookup.at.u + reach);
   const int low = texel(lookup.at.v - reach), high = texel(lookup.at.v + reach);

@@ -30,7 +30,7 @@ void weigh_axis(const FilterKernel& kernel, double within, std::vector<double>& 
     return;
   }
   for (int k = 0; k < kernel.side; ++k) {
-    const double at = within + (k - 0.5 * (kernel.side - 1)) * kernel.spacing;
+    const double at = within + kernel.tap_offset(k);
     if (kernel.shape == Shape::linear_taps) {
       const double share = at - 0.5 - std::floor(at - 0.5);
       add(at - 0.5, (1.0 - share) / kernel.side), add(at + 0.5, share / kernel.side);

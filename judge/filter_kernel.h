@@ -28,6 +28,8 @@ struct FilterKernel {
   /// Returns how far from the place the filter itself reaches, texels.
   double half_width() const;
   int width() const { return 2 * reach() + 1; }  ///< texels, the place's own in the middle
+  /// Returns how far a tap, of `side` along an axis, lies from the place, texels.
+  double tap_offset(int k) const { return (k - 0.5 * (side - 1)) * spacing; }
   /// Sets the weights of the texels around a place, row by row, which add up to 1. `within`: the place in its own texel, in
   /// [0, 1) along both axes.
   void weigh(const Vec2& within, std::vector<double>& weights) const;

@@ -33,6 +33,21 @@ raytrace::TexelKey texel_at(const LightRecord& record, int face, int column, int
                                   std::clamp(row, part.row, part.row + part.height - 1));
 }
 
+/// What each tap of a filter reads between the texels around it.
+std::vector<std::optional<double>> depths_between(const LightRecord& record,
+                                                  const compare::BiasedLookup& lookup,
+                                                  const FilterKernel& kernel) {
+  std::vector<std::optional<double>> out;
+  for (int j = 0; j < kernel.side; ++j)
+    for (int i = 0; i < kernel.side; ++i) {
+      compare::BiasedLookup there = lookup;
+      there.at.u += kernel.tap_offset(i), there.at.v += kernel.tap_offset(j);
+      there.key = texel_at(record, lookup.at.face, there.at.column(), there.at.row());
+      out.push_back(compare::compared_caster(record, there));
+    }
+  return out;
+}
+
 }  // namespace
 
 Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn,
@@ -47,8 +62,7 @@ Redrawing::Redrawing(const FrameInput& in, const raster::RasterFrame& drawn,
   for (std::uint32_t i = 0; i < light.labels.data.size(); ++i)
     if (compare::is_compared(light.labels.data[i])) fit.pixels.push_back({.index = i});
   fit.step = std::max<std::size_t>(1, fit.pixels.size() / most_sampled);
-  const bool once = drawn.options.map.technique == raster::Technique::hard || reads_ == Reads::averages ||
-                    reads_ == Reads::between;
+  const bool once = drawn.options.map.technique == raster::Technique::hard || reads_ == Reads::averages;
   if (!once) fit_kernel();
   if (!known_) return;
   look_outside();
@@ -131,13 +145,15 @@ bool Redrawing::read_layer(const LightRecord& record, std::uint32_t index, int s
     reading.taps.push_back(
         {depth ? compare::gap_before(record, bias, point.normal, at, *depth) : -infinity, weight});
   };
-  if (reads_ == Reads::elsewhere && reading.kernel.shape != FilterKernel::Shape::one) {
-    const auto depths = test.casters_within(record, *lookup, frame_.options.map.filter.radius_texels);
+  const bool one = reading.kernel.shape == FilterKernel::Shape::one;
+  if (!one && (reads_ == Reads::elsewhere || reads_ == Reads::between)) {
+    const auto depths = reads_ == Reads::between
+                            ? depths_between(record, *lookup, reading.kernel)
+                            : test.casters_within(record, *lookup, frame_.options.map.filter.radius_texels);
     for (const auto& depth : depths) add(*lookup, depth, share / static_cast<double>(depths.size()));
     return true;
   }
-  if (reading.kernel.shape == FilterKernel::Shape::one)
-    return add(*lookup, compare::compared_caster(record, *lookup), share), true;
+  if (one) return add(*lookup, compare::compared_caster(record, *lookup), share), true;
   const int column = lookup->at.column(), row = lookup->at.row(), reach = reading.kernel.reach();
   reading.kernel.weigh(Vec2(lookup->at.u - column, lookup->at.v - row), reading.weights);
   compare::BiasedLookup there = *lookup;

@@ -23,6 +23,8 @@ constexpr double nearly_all_beside = 0.95;
 std::vector<Redrawing::Fit> Redrawing::tried_kernels() const {
   std::vector<FilterKernel> kernels = kernels_of_reach(frame_.options.map.filter.radius_texels);
   if (reads_ == Reads::elsewhere) kernels = {{FilterKernel::Shape::taps, 1}};
+  if (reads_ == Reads::between)
+    std::erase_if(kernels, [](const FilterKernel& k) { return k.shape != FilterKernel::Shape::linear_taps; });
   std::vector<std::uint32_t> partly;
   for (const Pixel& pixel : fits_.front().pixels)
     if (is_partly_lit(double{light_.rungs[6].data[pixel.index]})) partly.push_back(pixel.index);
@@ -63,7 +65,7 @@ void Redrawing::fit_kernel() {
   }
   for (const Fit* other : {narrowest, widest})
     if (other != &best) fits_.push_back(*other);
-  if (reads_ == Reads::elsewhere) return;
+  if (reads_ == Reads::elsewhere || reads_ == Reads::between) return;
   Fit& rimmed = fits_.emplace_back(best);
   rimmed.kernel.rim_radius = frame_.options.map.filter.radius_texels, rimmed.kernel.rim_share = a_tap;
 }

@@ -220,6 +220,35 @@ TEST(JudgeDescribed, AnotherConstantIsThePlainestCause) {
   expect_other_test(picture.judged(), " or more, it is the one drawn in 100 %", true);
 }
 
+// ---- a filter that is described ----
+
+// Each tap compares once with what the sampler reads between four texels, which texels by themselves do not tell.
+TEST(JudgeDescribed, AFilterWhoseTapsReadBetweenTexels) {
+  OtherPicture picture("between-taps", {.constant_depth = 0.0002});
+  picture.capture.filter = judge::CapturedFilter{
+      .kind = judge::FilterName::pcf, .radius_texels = 2.0, .read = judge::FilterRead::linear_depths};
+  picture.draw_with(*picture.capture.bias, square_taps(3));
+  const JudgeOutcome right = picture.judged();
+  ASSERT_TRUE(right.result) << reason(right);
+  EXPECT_GT(right.result->judged->biased_is_drawn, 0.995) << notes_of(right);
+  EXPECT_EQ(notes_of(right).find("is not the one that was drawn"), std::string::npos) << notes_of(right);
+  const std::vector<compare::Advice>& advice = right.result->judged->advice;
+  ASSERT_FALSE(advice.empty());
+  EXPECT_FALSE(advice.back().about);
+  EXPECT_LT(advice.back().wrong_instead, right.result->lights[0].error.wrong_fraction);
+  Capture texels = picture.capture;
+  texels.filter->read = judge::FilterRead::nearest, texels.filter->radius_texels = 1.5;
+  const JudgeOutcome faulty = judge(texels, *picture.drawn.scene);
+  ASSERT_TRUE(faulty.result) << reason(faulty);
+  EXPECT_LT(faulty.result->judged->biased_is_drawn, right.result->judged->biased_is_drawn - 0.002);
+  EXPECT_TRUE(faulty.result->judged->advice.empty() || faulty.result->judged->advice.back().about);
+  // What the advice promises is what the other renderer then draws.
+  picture.draw_with(advised(picture.capture, advice), square_taps(3));
+  const JudgeOutcome again = picture.judged();
+  ASSERT_TRUE(again.result) << reason(again);
+  EXPECT_NEAR(again.result->lights[0].error.wrong_fraction, advice.back().wrong_instead, 5e-4);
+}
+
 // ---- a filter that is not described ----
 
 // One comparison leaves nothing partly lit, and its rounding makes no greys.

@@ -1,6 +1,7 @@
 """How a frame's test reads and biases its map, by adapters/renderdoc: forms of the bias, encodings, moments, numbers of shaders.
 /usr/bin/python3 renderdoc_forms_test.py FOLDER_OF_THE_ADAPTER"""
 import unittest
+from dataclasses import replace
 
 from renderdoc_scenes import *  # noqa: F403
 from gnomon_frame import decision, forms, literals, moments  # noqa: E402
@@ -128,15 +129,39 @@ class Filters(unittest.TestCase):
         places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
         cosine = forms.cosines(SUN, places, normals)
         right, other = forms.Form(0.012, known=True), forms.Form(0.024, "sine", known=True)
-        for reach, bilinear, radius in ((1, False, 1.5), (2, False, 2.5), (0, True, 1.0)):
-            values = lookup.filtered(layer(), places, right.bias(cosine), reach, bilinear)
+        between = replace(right, linear=True)
+        for form, reach, sampler, radius in ((right, 1, "nearest", 1.5), (right, 2, "nearest", 2.5), (right, 0, "compares", 1.0), (between, 1, "interpolates", 2.0)):
+            values = lookup.filtered(layer(), places, right.bias(cosine), reach, sampler)
             partly = (values > 0.02) & (values < 0.98)
-            self.assertEqual(decision._by_filter(all_of(layer(), places), [other, right], places, normals, self.seen(values), partly, bilinear), (right, radius))
+            tried = [other, between, right] if form is right else [other, between]  # each is tried without interpolation, too
+            found = decision._by_filter(all_of(layer(), places), tried, places, normals, self.seen(values), partly, sampler == "compares")
+            self.assertEqual(found, (form, radius))
+
+    def test_they_tell_a_form_where_a_filter_leaves_few_sure_ones(self):
+        places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
+        seen = forms.normals(PLACES, np.ones(PLACES.shape[:2], bool)).reshape(-1, 3)
+        cosine = forms.cosines(SUN, places, normals)
+        own = numbers([1.5], [0.008, 0.2, 0.3], [0.002], True)
+        right = forms.Form(0.002, "tangent", high=0.008)
+        values = lookup.filtered(layer(), places, right.bias(cosine), 2, "nearest")
+        partly = (values > 0.02) & (values < 0.98)
+        find = lambda thorough: forms.find(all_of(layer(), places[~partly]), places[~partly], seen[~partly], values[~partly] > 0.5, own, False, thorough)
+        form, radius = decision._by_filter(all_of(layer(), places), find(False), places, seen, self.seen(values), partly, False, lambda: find(True))
+        self.assertEqual((form.said(), radius), ({"constant_depth": 0.002, "angle": "tangent", "max": 0.008}, 2.5))
+
+    def test_greys_that_are_nearly_all_alike_tell_by_what_they_are(self):
+        value = np.where(np.arange(3000) % 60 == 0, 7 / 9, 8 / 9)
+        made = np.where(np.arange(3000) % 70 == 0, 7 / 9, 8 / 9)
+        looked_up = SimpleNamespace(filtered=lambda places, bias, reach, sampler, step: made if reach == 1 and step == 1 else np.full(3000, 0.5))
+        kernel = decision._kernel(looked_up, None, None, value, "interpolates")
+        self.assertLess(kernel.score, decision.SURELY)
+        self.assertTrue(kernel.is_sure)
+        self.assertEqual(kernel.reach, 1)
 
     def test_their_averages_tell_how_the_picture_is_encoded(self):
         places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
         right = forms.Form(0.012, known=True)
-        values = lookup.filtered(layer(), places, right.bias(forms.cosines(SUN, places, normals)), 1, False)
+        values = lookup.filtered(layer(), places, right.bias(forms.cosines(SUN, places, normals)), 1, "nearest")
         bent = formats.linear(values)
         partly = (values > 0.02) & (values < 0.98)
         for first, second, exchanged in ((bent, values, True), (values, bent, False)):
@@ -196,7 +221,7 @@ class Cascades(unittest.TestCase):
         by_depth = lookup.Selection("view_z", (5.9, 30.0), 0.0)
         keys = {"view_z": -at[:, 2]}
         looked_up = lookup.LookedUp([finer, one], lookup.index_of(by_depth, [np.ones(len(at), bool)] * 2, keys))
-        value = looked_up.filtered(at, bias, 1, False)
+        value = looked_up.filtered(at, bias, 1, "nearest")
         places = decision._Places(at, normals, value, np.ones(len(at), bool), keys)
         self.assertEqual(decision._chosen([finer, one], places, right, numbers([5.9, 30.0]), False).by, "view_z")
         pixels = SimpleNamespace(visibility=value, otherwise=None, asked=np.ones(len(at), bool), is_read_otherwise=False)
@@ -205,7 +230,7 @@ class Cascades(unittest.TestCase):
     def test_a_filter_may_step_by_two_texels(self):
         places, normals = PLACES.reshape(-1, 3), NORMALS.reshape(-1, 3)
         right = forms.Form(0.012, known=True)
-        values = lookup.filtered(layer(), places, right.bias(np.zeros(len(places))), 1, False, 2)
+        values = lookup.filtered(layer(), places, right.bias(np.zeros(len(places))), 1, "nearest", 2)
         pixels = SimpleNamespace(visibility=values, otherwise=None, asked=np.ones(len(places), bool), is_read_otherwise=False)
         partly = (values > 0.02) & (values < 0.98)
         self.assertEqual(decision._by_filter(all_of(layer(), places), [right], places, normals, pixels, partly, False), (right, 2.5))

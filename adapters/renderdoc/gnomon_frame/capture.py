@@ -137,9 +137,10 @@ def _filter(layers, test):
             said |= {"minimum_variance": fitted.variance, "light_bleeding_reduction": fitted.reduction}
         return said
     blurred = any(layer.is_blurred for layer in layers)
+    read = {"read": "linear_depths"} if test.form and test.form.linear and not blurred and not test.exponent else {}
     if test.radius is None and not blurred:
-        return {"kind": "none", **({"read": "linear_depths"} if test.form and test.form.linear else {})}
-    return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64)}
+        return {"kind": "none", **read}
+    return {"kind": "esm" if test.exponent else "vsm" if blurred else "pcf", "radius_texels": min(test.radius or 1.5, 64), **read}
 
 
 def _light(folder, frame, light, prefix, world):

@@ -8,7 +8,8 @@ from . import fit, forms, lookup, moments
 LARGEST = 0.1  # of stored depths: what a bias of cascades is not larger than
 FEW_OF_A_LAYER = 5e-3  # share of the pixels that tell no constant of a layer's own
 PARTLY = 2e-3  # share of partly lit pixels, below which there is no filter
-SURELY = 0.9  # correlation of partly lit pixels with an average of comparisons from which on that is the filter
+SURELY = 0.9  # correlation of partly lit pixels with an average of comparisons from which on that is the filter, or share of them that it makes
+SAME = 0.015  # four steps of eight bits
 UNKNOWN = 5e-3  # by so much more the picture must speak for numbers that the frame has not
 ALIKE = 3e-4  # correlations of forms with the picture that differ by less tell none of them
 STRETCHED = 1e-3  # of a map's width and height: what a reader widens them by is said
@@ -85,18 +86,24 @@ class _Kernel:
     """Comparisons of how many texels give partly lit pixels, and how well."""
 
     score: float = 0.0  # correlation with the picture
+    exact: float = 0.0  # share of the places of which it makes what they have: of acne's greys, which are nearly all alike, no correlation tells
     reach: int | None = None  # texels to either side; None where no average fits
     light: np.ndarray | None = None  # what the average makes of each place
 
+    @property
+    def is_sure(self):
+        return max(self.score, self.exact) >= SURELY
 
-def _kernel(looked_up, places, bias, value, bilinear):
+
+def _kernel(looked_up, places, bias, value, sampler):
     """The _Kernel of partly lit places. The picture's encoding may be misread, which bends the values: their order stays."""
     best = _Kernel()
-    for reach, step in [(reach, 1) for reach in range(4) if bilinear or reach] + [(1, 2)]:
-        light = looked_up.filtered(places, bias, reach, bilinear, step)
+    for reach, step in [(reach, 1) for reach in range(4) if sampler == "compares" or reach] + [(1, 2)]:
+        light = looked_up.filtered(places, bias, reach, sampler, step)
         score = float(np.corrcoef(light, value)[0, 1]) if np.ptp(light) > 0 and np.ptp(value) > 0 else 0.0
-        if score > best.score:
-            best = _Kernel(score, reach * step, light)
+        same = float(np.mean(np.abs(light - value) < SAME)) if len(value) else 0.0
+        if score > best.score and (score >= SURELY or same >= best.exact):
+            best = _Kernel(score, same, reach * step, light)
     return best
 
 
@@ -105,30 +112,45 @@ def _few(partly):
     return np.flatnonzero(partly)[::max(1, int(partly.sum()) // 5000)]
 
 
-def _by_filter(looked_up, alike, places, normals, pixels, partly, bilinear):
+def _with_kernels(looked_up, tried, places, normals, value, bilinear):
+    """(the form, its _Kernel) of the forms `tried`, likeliest first, of whose comparisons partly lit places are an average."""
+    cosine = forms.cosines(looked_up.layers[0].place, places, normals)
+    of = lambda form: _kernel(looked_up, form.moved(places, normals, cosine), form.bias(cosine), value, _sampler(form, bilinear))
+    kernels = [of(form) for form in tried]
+    by = "score" if any(kernel.score >= SURELY for kernel in kernels) else "exact"
+    scores = [getattr(kernel, by) - (0 if form.known else UNKNOWN) for form, kernel in zip(tried, kernels)]
+    best = next(k for k, score in enumerate(scores) if score >= max(scores) - ALIKE)
+    return tried[best], kernels[best]
+
+
+def _sampler(form, bilinear):
+    return "interpolates" if form.linear else "compares" if bilinear else "nearest"
+
+
+def _by_filter(looked_up, alike, places, normals, pixels, partly, bilinear, more=lambda: []):
     """(the form, how far its filter reads, texels, or None) of those that decide the sure pixels alike: that of whose comparisons partly lit
-    pixels are an average. Of a picture that does not say how it is encoded that average tells."""
+    pixels are an average. `more`: forms to be tried where it is of none. Of a picture that does not say how it is encoded that average tells."""
     if partly.sum() < lookup.FEW:
         return alike[0], None
     few = _few(partly)
     of_few = lambda values: values[pixels.asked][few]
-    cosine = forms.cosines(looked_up.layers[0].place, places[few], normals[few])
     looked_up = looked_up.of(few)
-    tried = []
-    for form in alike:
-        moved, bias = form.moved(places[few], normals[few], cosine), form.bias(cosine)
-        tried.append((_kernel(looked_up, moved, bias, of_few(pixels.visibility), bilinear), moved, bias))
-    scores = [kernel.score - (0 if form.known else UNKNOWN) for (kernel, _, _), form in zip(tried, alike)]
-    best = next(k for k, score in enumerate(scores) if score >= max(scores) - ALIKE)
-    kernel, moved, bias = tried[best]
-    if kernel.score < SURELY:
-        reach = looked_up.filter_radius(moved, bias)
-        return alike[best], None if reach is None else float(reach) if bilinear else reach + 0.5
+    alike = [*alike, *(replace(form, linear=False) for form in alike if form.linear)]
+    form, kernel = _with_kernels(looked_up, alike, places[few], normals[few], of_few(pixels.visibility), bilinear)
+    if not (kernel.is_sure and form.known) and (others := more()):
+        some = slice(None, None, max(1, len(few) // 1000))
+        other, _ = _with_kernels(looked_up.of(some), others, places[few][some], normals[few][some], of_few(pixels.visibility)[some], bilinear)
+        form, kernel = _with_kernels(looked_up, [form, other], places[few], normals[few], of_few(pixels.visibility), bilinear)
+    beside = 0.5 if _sampler(form, bilinear) == "nearest" else 1.0
+    if not kernel.is_sure:
+        cosine = forms.cosines(looked_up.layers[0].place, places[few], normals[few])
+        reach = looked_up.filter_radius(form.moved(places[few], normals[few], cosine), form.bias(cosine))
+        return form, None if reach is None else float(reach) if bilinear else reach + beside
     off = lambda values: float(np.sqrt(np.mean((of_few(values) - kernel.light) ** 2)))
     if pixels.otherwise is not None and off(pixels.otherwise) < 0.7 * off(pixels.visibility):
         pixels.visibility, pixels.otherwise = pixels.otherwise, pixels.visibility
         pixels.is_read_otherwise = True
-    return alike[best], kernel.reach + (1.0 if bilinear else 0.5)
+    return form, kernel.reach + beside
 
 
 def _shared_constant(margins, sure, numbers):
@@ -187,25 +209,29 @@ def _chosen(layers, places, form, numbers, bilinear):
     if len(near) > 1 and len(unsure.at) >= lookup.FEW:
         cosine = forms.cosines(layers[0].place, unsure.at, unsure.normals)
         moved, bias = form.moved(unsure.at, unsure.normals, cosine), form.bias(cosine)
-        scores = [_kernel(unsure.looked_up(layers, one), moved, bias, unsure.value, bilinear).score for one in near]
+        scores = [_kernel(unsure.looked_up(layers, one), moved, bias, unsure.value, _sampler(form, bilinear)).score for one in near]
         if max(scores) >= SURELY:
             return next(one for one, score in zip(near, scores) if score >= max(scores) - ALIKE)
     stand_together = [one for one in alike if one.limits and any(set(one.limits) - {np.inf} <= set(v) for v in numbers.vectors)]
     return (stand_together or alike)[0]
 
 
+def _forms(found, layers, sure, selection, numbers, thorough=False):
+    """The Forms that decide the sure pixels alike, the likeliest first."""
+    linear = found.sampler == "linear" and not any(layer.is_blurred for layer in layers)
+    return forms.find(sure.looked_up(layers, selection), sure.at, sure.normals, sure.value > 0.5, numbers, linear, thorough)
+
+
 def _of_layers(found, layers, places, numbers):
     """(the Selection, the Forms that decide the sure pixels alike) of a map of one layer or several, whose bias they share."""
-    linear = found.sampler == "linear" and not any(layer.is_blurred for layer in layers)
     sure = places.only(places.sure)
-    lit = sure.value > 0.5
     shared = _shared_constant([lookup.margins(layer, sure.at) for layer in layers], sure, numbers) if len(layers) > 1 else 0.0
     selection = _chosen(layers, places, forms.Form(shared), numbers, found.is_bilinear)
-    alike = forms.find(sure.looked_up(layers, selection), sure.at, sure.normals, lit, numbers, linear)
+    alike = _forms(found, layers, sure, selection, numbers)
     if len(layers) > 1:  # once more, now that its bias is known
         before, selection = selection, _chosen(layers, places, alike[0], numbers, found.is_bilinear)
         if (selection.by, selection.limits) != (before.by, before.limits):
-            alike = forms.find(sure.looked_up(layers, selection), sure.at, sure.normals, lit, numbers, linear)
+            alike = _forms(found, layers, sure, selection, numbers)
     return selection, alike
 
 
@@ -267,7 +293,8 @@ def find_test(found, layers, pixels, numbers, exponent, fitted=None):
     # Where layers blend their own soft edges are partly lit by that as well: the sampler says that it reads four texels.
     of_blends = 1.0 if bilinear and blended.any() else None
     if alike:
-        form, radius = _by_filter(looked_up, alike, places.at, places.normals, pixels, unsure, bilinear)
+        more = lambda: _forms(found, layers, places.only(sure), selection, numbers, thorough=True)
+        form, radius = _by_filter(looked_up, alike, places.at, places.normals, pixels, unsure, bilinear, more)
         if pixels.is_read_otherwise:
             read = ("sRGB", "linear ones") if numbers.encodes is False else ("linear ones", "sRGB")
             found.notes.append(f"the picture's numbers are read as {read[0]}, not as {read[1]}: partly lit pixels are averages of comparisons then")

@@ -9,6 +9,8 @@ from . import lookup
 
 NEARLY = 1e-4  # of the pixels: forms that differ by fewer give the picture alike
 MOST_PLACES = 25000  # that are looked at while a form is searched
+NEAR = 6e-3  # the same, of forms that are looked at where partly lit pixels have to tell: a filter leaves few sure ones
+MOST_FORMS = 400  # of these
 OF_NORMALS = 5e-4  # the same, of forms that ask for normals: a shader's are interpolated, these are of the picture's places
 OF_GIVEN = 4e-4  # by so much more of the places a constant that the shader is given must give than none
 LARGEST = 0.3  # of stored depths, or texels of 1 / 30: what a bias is not larger than
@@ -107,7 +109,7 @@ class Search:
         self.known = kept(numbers.all)
         self.lengths = sorted({abs(float(n)) for n in numbers.all if n})
         self.linear, self.usual = linear, ("tangent", "one_minus_cosine", "sine") if numbers.has_tangent else ("one_minus_cosine", "sine", "tangent")
-        self.tried = []
+        self.tried, self.is_thorough = [], False
 
     def margins(self, form):
         at = form.moved(self.places, self.normals, self.cosine)
@@ -166,6 +168,8 @@ class Search:
     def _limited(self, form, limit, unlimited, values, inside):
         """A form with a limit; where that alone decides the picture as well, and the angle does not, it is a constant."""
         found = self._note(form, values, inside)
+        if self.is_thorough:  # sure pixels alone do not tell
+            return
         alone = self._note(Form(constant=limit, linear=form.linear), values, inside)
         if alone.wrong <= found.wrong < unlimited.wrong:
             self.tried.remove(found)
@@ -185,9 +189,10 @@ class Search:
                 one = replace(best, offset=float(k))
                 self._constant(one, *self.margins(one))
 
-    def best(self):
-        """The Forms that give the picture alike, of each kind the one that is taken first; the first of all first."""
-        starts = []
+    def best(self, thorough=False):
+        """The Forms that give the picture alike, of each kind the one that is taken first; the first of all first. `thorough`: all that come near
+        it, of which something else has to tell the right one."""
+        starts, self.is_thorough = [], thorough
         for linear in ((True, False) if self.linear else (False,)):
             form = Form(linear=linear)
             values, inside = self.margins(form)
@@ -195,13 +200,15 @@ class Search:
         constant, values, inside = min(starts, key=lambda one: one[0].wrong)
         self.tried = [constant]
         enough = NEARLY + 2 / max(int(inside.sum()), 1)
-        if self._rank(constant)[:2] != (False, 0) or constant.wrong > enough:
+        if thorough or self._rank(constant)[:2] != (False, 0) or constant.wrong > enough:
             form = replace(constant, constant=0.0)
-            for c in self.given:
+            for c in self.constants if thorough else self.given:
                 self._note(replace(form, constant=c), values, inside)
             self._angles(form, values, inside)
             self._offsets(form)
         least = min(one.wrong for one in self.tried)
+        if thorough:
+            return sorted(dict.fromkeys(one for one in self.tried if one.wrong <= least + NEAR), key=self._rank)[:MOST_FORMS]
         alike = [one for one in self.tried if one.wrong <= least + enough + (0 if one.is_constant else OF_NORMALS)]
         kinds = {}
         for one in sorted(alike, key=self._rank):
@@ -209,7 +216,7 @@ class Search:
         return list(kinds.values())
 
 
-def find(looked_up, places, normals_, lit, numbers, linear):
+def find(looked_up, places, normals_, lit, numbers, linear, thorough=False):
     """The Forms that the test of a LookedUp map may have, the likeliest first. `lit`: whether the light reaches each of the places; `numbers`:
-    those of the frame; `linear`: whether its sampler interpolates, and compares nothing."""
-    return Search(looked_up, places, normals_, lit, numbers, linear).best()
+    those of the frame; `linear`: whether its sampler interpolates, and compares nothing; `thorough`: as Search.best()."""
+    return Search(looked_up, places, normals_, lit, numbers, linear).best(thorough)

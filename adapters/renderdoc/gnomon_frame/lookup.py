@@ -199,8 +199,8 @@ class LookedUp:
             return np.where(inside, depth - stored if layer.state.reversed else stored - depth, 1.0), inside
         return self._gathered((1.0, False), of_layer)
 
-    def filtered(self, places, bias, reach, is_bilinear, step=1):
-        return self._gathered((1.0,), lambda layer, mine: (filtered(layer, places[mine], bias[mine], reach, is_bilinear, step),))[0]
+    def filtered(self, places, bias, reach, sampler, step=1):
+        return self._gathered((1.0,), lambda layer, mine: (filtered(layer, places[mine], bias[mine], reach, sampler, step),))[0]
 
     def filter_radius(self, places, bias):
         """Of the first layer whose places tell one."""
@@ -239,17 +239,16 @@ def answer(layer, positions, bilinear, bias=None):
     return Answer(np.where(inside, light, 1.0), inside)
 
 
-def filtered(layer, positions, bias, reach, is_bilinear, step=1):
-    """What comparisons of the texels up to `reach` steps around each place make of it on average; each is of the four nearest where the sampler
-    weighs those. Of one part of an atlas, that of the whole is sometimes taken for its width: a step is two texels then."""
+def filtered(layer, positions, bias, reach, sampler, step=1):
+    """What comparisons at up to `reach` steps around each place make of it on average. `sampler`: what each is of, "nearest" the place's own texel,
+    "compares" the four nearest, weighed, "interpolates" one depth between these. Of one part of an atlas, that of the whole is sometimes taken for
+    its width: a step is two texels then."""
     column, row, depth, _ = texel_places(layer, positions)
     rows, columns = layer.texels.shape
-
-    def lit(i, j):
-        stored = layer.texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
-        return ((depth - stored if layer.state.reversed else stored - depth) + bias >= 0).astype(float)
-
-    one = (lambda i, j: _weighed(i, j, lit)) if is_bilinear else (lambda i, j: lit(np.floor(i), np.floor(j)))
+    stored = lambda i, j: layer.texels[np.clip(j, 0, rows - 1).astype(int), np.clip(i, 0, columns - 1).astype(int)]
+    lit = lambda of: ((depth - of if layer.state.reversed else of - depth) + bias >= 0).astype(float)
+    one = {"nearest": lambda i, j: lit(stored(np.floor(i), np.floor(j))), "compares": lambda i, j: _weighed(i, j, lambda *at: lit(stored(*at))),
+           "interpolates": lambda i, j: lit(_weighed(i, j, stored))}[sampler]
     steps = step * np.arange(-reach, reach + 1)
     return np.mean([one(column + i, row + j) for i in steps for j in steps], axis=0)
 
