@@ -214,25 +214,25 @@ class Light(unittest.TestCase):
         square, up = CUBE[[0, 1, 2, 3]], np.tile([-1.0, 0, 0], (4, 1))
         meshes = [(CUBE, self.NORMALS, m) for m in PLACES] + [(square, up, PLACES[1])]
         views = [(fit.homogeneous(points) @ m.T)[:, :3] for points, _, m in meshes]
-        normals = [fit.turned_normals(points, n, view) for (points, n, _), view in zip(meshes, views)]
+        of_meshes = [normals.of_mesh(SimpleNamespace(objects=points, normals=n), view) for (points, n, _), view in zip(meshes, views)]
         to_light = -fit.light_place(light).direction
-        places, turned_ = np.concatenate(views), np.concatenate(normals)
-        turned_ /= np.linalg.norm(turned_, axis=1, keepdims=True)
+        places, turned_ = np.concatenate(views), np.concatenate(of_meshes)
         right = np.concatenate([n @ m[:3, :3].T for _, n, m in meshes])
         self.assertLess(np.abs(turned_ - right).max(), 1e-9)
         amount = by * (np.sqrt(1 - (right @ to_light) ** 2) if of_sine else np.ones(len(right)))
         return light, places, turned_, drawn(light, places + right * amount[:, None])
 
-    def test_of_casters_moved_along_their_normals_is_found(self):
+    def test_of_casters_moved_along_their_own_normals_is_found(self):
         for by, of_sine in ((-0.04, True), (0.05, False)):
-            light, places, normals, clips = self.pushed(by, of_sine)
-            self.assertGreater(fit.fit_light(places, clips).residuals.max(), extract.PUSHED)
-            found = fit.fit_pushed(places, normals, clips)
-            self.assertAlmostEqual(found.by, by, delta=1e-5)
-            self.assertEqual(found.of_sine, of_sine)
-            self.assertLess(np.abs(found.light.matrix - light).max(), 1e-4)
+            light, places, turned_, clips = self.pushed(by, of_sine)
+            plain = fit.fit_light(places, clips)
+            self.assertGreater(plain.residuals.max(), extract.EXACT)
+            found, shift = normals.find(places, turned_, clips, plain, False)
+            self.assertAlmostEqual(shift.world, -by, delta=1e-5)
+            self.assertEqual(shift.angle, "sine" if of_sine else "none")
+            self.assertLess(np.abs(found.matrix - light).max(), 1e-4)
         clips[:, 0] += np.sin(9 * places[:, 1]) * 0.01
-        self.assertIsNone(fit.fit_pushed(places, normals, clips))
+        self.assertIsNone(normals.find(places, turned_, clips, fit.fit_light(places, clips), False))
 
     def test_of_a_flat_cascade_takes_another_ones_axes(self):
         near, far = (parallel(half, -10, 20) @ TO_SUN for half in (3, 12))

@@ -168,7 +168,7 @@ class Lookup(unittest.TestCase):
         for slope, said in ((0.0, False), (2.0, True)):
             layer = SimpleNamespace(
                 state=SimpleNamespace(reversed=False, depth_bias={"constant": 4, "slope": slope, "clamp": 0.1}, conventions=conventions.opengl()),
-                has_caster_bias=False, normal_shift=None, is_held=False, pushed=None, content=None, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
+                has_caster_bias=False, normal_shift=None, is_held=False, content=None, constant=0.0, half=SimpleNamespace(residual=0.0), distance=SimpleNamespace(range=9.0, residual=0.0), matrix=np.eye(4),
                 matched=1, place=SimpleNamespace(apex=np.zeros(3)), texels=np.ones((2, 2)))
             found = SimpleNamespace(passes=SimpleNamespace(texture=1), view=SimpleNamespace(lens=lens.Lens(1, 1, 0, 0, 1, 1, 0)), notes=[])
             test = SimpleNamespace(selection=lookup.Selection("first", (), 0.0), exponent=None, form=None, fitted=None, unread="", radius=None, agreement=None)

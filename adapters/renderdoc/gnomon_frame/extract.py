@@ -13,7 +13,6 @@ from .pairing import pair
 from .passes import MapPasses
 from .reader import CasterShift, ReaderMatrix, caster_shift, find_reader, texture_places, through_model
 
-PUSHED = 1e-5  # casters whose places are off by more may have been moved along their normals
 PROJECTED = 1e-3  # a light's matrix that is off by more is no projection
 EXACT = 2e-5  # by more than 32-bit arithmetic is off
 
@@ -40,7 +39,6 @@ class Layer:
     matrix: np.ndarray | None = None  # clip_from_view whose z/w is what a texel stores; of a half the light's view alone
     constant: float = 0.0  # the reader's own bias, stored numbers
     is_held: bool = False  # whether casters before the near plane are held at it
-    pushed: fit.PushedFit | None = None  # of casters that were moved along their normals
     is_colour: bool = False  # whether its texels are those of a colour texture
     content: Content | None = None  # what these hold, where that is known
     averages: dict = field(default_factory=dict)  # of a map of moments: what readers find with it drawn, empty and full
@@ -189,32 +187,16 @@ def _fit_layer(layer, view, cameras):
         _without_what_is_held(layer, views, clips)
     if layer.light.rank == 4 and layer.light.residuals.max() > EXACT:
         _along_normals(layer, view, views, clips)
-    if layer.light.rank == 4 and layer.light.residuals.max() > PUSHED and layer.normal_shift is None and (turned := _turned_normals(layer, view)) is not None:
-        layer.pushed = fit.fit_pushed(views, turned, clips)
-        layer.light = layer.pushed.light if layer.pushed else layer.light
     if layer.light.rank == 4 and layer.light.residuals.max() > PROJECTED:
         layer.distance = fit.fit_distance(views, layer.state.conventions.window_row(clips[:, 2], clips[:, 3]) / clips[:, 3])
         layer.half = fit.fit_half(views, layer.distance.apex, clips) if layer.distance else None
     return True
 
 
-def _turned_normals(layer, view):
-    """Normals in view space of the casters of _points(), or None where some mesh has none."""
-    out = []
-    for place, caster in layer.pairs:
-        if place is None:
-            continue
-        if caster.normals is None or caster.objects is None:
-            return None
-        normals = fit.turned_normals(caster.objects, caster.normals, view.positions[place])
-        out.append(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30))
-    return np.concatenate(out)
-
-
 def _along_normals(layer, view, views, clips):
     """Casters may be moved along their normals: what is left of the projection tells."""
-    pairs = [(view.positions[place], caster.corners) for place, caster in layer.pairs if place is not None]
-    found = normals.find(views, np.concatenate([normals.of_corners(*one) for one in pairs]), clips, layer.light, layer.state.reversed)
+    of_casters = np.concatenate([normals.of_mesh(caster, view.positions[place]) for place, caster in layer.pairs if place is not None])
+    found = normals.find(views, of_casters, clips, layer.light, layer.state.reversed)
     if found and found[0].residuals.max() <= PROJECTED:
         layer.light, layer.normal_shift = found
 

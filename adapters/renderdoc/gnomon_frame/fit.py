@@ -38,51 +38,6 @@ def fit_light(views, clips):
     return LightFit(matrix, off, int(np.linalg.matrix_rank(points, 1e-5 * np.linalg.norm(points))))
 
 
-def turned_normals(objects, normals, views):
-    """Normals of vertices that an affine matrix took from `objects` to `views`. Of a flat mesh its plane's own direction is given a length in
-    between, which its normals do not ask for."""
-    middle, there = objects - objects.mean(0), views - views.mean(0)
-    across = np.linalg.svd(middle, full_matrices=False)[2]
-    if np.linalg.matrix_rank(middle, 1e-6 * max(np.linalg.norm(middle), 1e-30)) == 2:
-        turn = np.linalg.lstsq(middle, there, rcond=None)[0]
-        out = np.cross(across[0] @ turn, across[1] @ turn) * np.sign(np.linalg.det(across))
-        middle, there = np.r_[middle, across[2:]], np.r_[there, out[None] / max(np.linalg.norm(out), 1e-30)]
-    return normals @ np.linalg.pinv(np.linalg.lstsq(middle, there, rcond=None)[0].T)
-
-
-@dataclass
-class PushedFit:
-    """The matrix of casters that were moved along their normals before it, away from the light's side."""
-
-    light: LightFit
-    by: float  # world units, times the sine of the angle between normal and light, or at every angle alike; below 0 inwards
-    of_sine: bool
-
-
-def fit_pushed(views, normals, clips):
-    """The PushedFit of casters, or None. Given the light's direction it is linear: clip = M p + A q, where q is how each vertex would be moved by one
-    unit, and A is M's turn times how far it was."""
-    for of_sine in (False, True):
-        pushed, to_light = normals, None
-        for _ in range(8 if of_sine else 1):
-            if of_sine:
-                to_light = -light_place(fit_light(views, clips).matrix).direction if to_light is None else to_light
-                pushed = normals * np.sqrt(np.maximum(1 - (normals @ to_light) ** 2, 0))[:, None]
-            terms = np.c_[homogeneous(views), pushed]
-            if np.linalg.matrix_rank(terms, 1e-5 * np.linalg.norm(terms)) < 7:
-                break
-            both = np.linalg.lstsq(terms, clips, rcond=None)[0].T
-            matrix, turn = both[:, :4], both[:, 4:]
-            if np.linalg.norm(matrix[3, :3]) * 1e5 >= abs(matrix[3, 3]):
-                break  # a sun's alone: of a lamp at a point the angle is another at each vertex
-            by = float((turn * matrix[:, :3]).sum() / (matrix[:, :3] ** 2).sum())
-            off = np.abs(terms @ np.c_[matrix, by * matrix[:, :3]].T - clips).max(0) / max(np.abs(clips).max(), 1e-30)
-            if off.max() < 1e-5:
-                return PushedFit(LightFit(matrix, off, 4), by, of_sine)
-            to_light = -light_place(matrix).direction
-    return None
-
-
 def _with_residuals(rows, points, clips):
     return LightFit(rows, np.abs(points @ rows.T - clips).max(0) / max(np.abs(clips).max(), 1e-30), 4)
 

@@ -19,6 +19,26 @@ class NormalShift:
     angle: str  # a capture's word for it
 
 
+def turned(objects, normals, views):
+    """Normals of vertices that an affine matrix took from `objects` to `views`. Of a flat mesh its plane's own direction is given a length in
+    between, which its normals do not ask for."""
+    middle, there = objects - objects.mean(0), views - views.mean(0)
+    across = np.linalg.svd(middle, full_matrices=False)[2]
+    if np.linalg.matrix_rank(middle, 1e-6 * max(np.linalg.norm(middle), 1e-30)) == 2:
+        turn = np.linalg.lstsq(middle, there, rcond=None)[0]
+        out = np.cross(across[0] @ turn, across[1] @ turn) * np.sign(np.linalg.det(across))
+        middle, there = np.r_[middle, across[2:]], np.r_[there, out[None] / max(np.linalg.norm(out), 1e-30)]
+    return normals @ np.linalg.pinv(np.linalg.lstsq(middle, there, rcond=None)[0].T)
+
+
+def of_mesh(mesh, views):
+    """Normals of a mesh's vertices in view space: its own, where its draw has some, else the mean of their triangles'."""
+    if mesh.normals is None or mesh.objects is None:
+        return of_corners(views, mesh.corners)
+    out = turned(mesh.objects, mesh.normals, views)
+    return out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-30)
+
+
 def of_corners(points, corners):
     """Normals of vertices: the mean of their triangles', by area."""
     triangles = corners.reshape(-1, 3)

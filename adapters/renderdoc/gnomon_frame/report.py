@@ -65,16 +65,13 @@ def findings(frame, found, layers, test):
             out.append(f"{which}casters are drawn {layer.shift.world:.4f} world units away from the light ({how}; residual "
                        f"{layer.shift.residual:.1e})")
         if layer.normal_shift:
-            out.append(f"{which}casters are moved {layer.normal_shift.world:.4g} world units{_times(layer.normal_shift.angle)} against their normals (their "
+            by, which_way = abs(layer.normal_shift.world), "against" if layer.normal_shift.world > 0 else "along"
+            out.append(f"{which}casters are moved {by:.4g} world units{_times(layer.normal_shift.angle)} {which_way} their normals (their "
                        f"positions are a projection then, residual {float(np.max(layer.light.residuals)):.1e})")
         if test.form:
             out += _form(test.form) if k == 0 else []
         elif layer.constant and not test.fitted:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
-        if layer.pushed:
-            times = " times the sine of the angle to the light" if layer.pushed.of_sine else ""
-            out.append(f"{which}casters are moved {layer.pushed.by:.4g} world units{times} along their normals (residual {layer.pushed.light.residuals.max():.1e}); "
-                       "a capture has no word for it, so that the verdict charges it to casters")
         if layer.is_held:
             out.append(f"{which}casters before the map's near plane are held at it")
         offset = polygon_offset(layer, texture)
