@@ -182,16 +182,19 @@ TEST(RaysTechnique, FinishedPicturesAreAsRightAsTheirShadows) {
 }
 
 TEST(RaysTechnique, PartsOfALightThatContributeAlikeWeighNothing) {
-  const auto weighted = [](const char* scene, double size) {
-    const auto world = open(scene);
-    if (size > 0.0) EXPECT_TRUE(resize_shape(world->scene.lights[0].extent, size));
+  const auto weighted = [](OneWorld& world) {
     compare::CompareOptions options = ray_options(Denoiser::none);
+    options.raster.map = {};
     options.perceptual = true;
     options.raytrace.shadow_samples = 64;
-    return world->compare(options).lights.front().penumbra->weighted_difference;
+    return world.compare(options).lights.front().penumbra->weighted_difference;
   };
+  auto under_sun = load_scene("courtyard");
+  ASSERT_TRUE(under_sun);
+  under_sun->lights.front().extent = SunDisc{.angular_diameter = 0.0093};
+  OneWorld courtyard(std::move(*under_sun));
   // Half a degree of the sun changes the cosine by less than a hundredth; a lamp near its receivers has nearer parts.
-  const double sun = weighted("courtyard", 0.5), lamp = weighted("penumbra", 0.0);
+  const double sun = weighted(courtyard), lamp = weighted(*open("penumbra"));
   EXPECT_LT(sun, 0.002);
   EXPECT_GT(lamp, 0.005);
 }
