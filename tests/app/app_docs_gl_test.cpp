@@ -129,6 +129,7 @@ bool is_scene(const std::string& word) {
 TEST(Documents, CommandsAreTheProgramsOwn) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "mine");
+  fs::create_directories(folder / "homework/student");
   const fs::path before = fs::current_path();
   fs::current_path(folder.path());
   const std::vector<Shown> commands = shown_commands();
