@@ -17,11 +17,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What of a mark is said to the comparison; `own`: to the figure alone.
+/// What of a mark is said to the comparison; `own`: to the figure alone. A map's window is that of the scene that "window-of" names: who
+/// chooses another scene in the page has a map that is fitted to that.
 Settings for_comparison(const LiveMark& mark, std::string_view own = {}) {
+  const std::string window_of = mark.setting("window-of");
+  const bool has_window = window_of == mark.setting("scene");
   Settings settings;
-  for (const auto& setting : mark.settings)
-    if (setting.first != "scene" && setting.first != own) settings.push_back(setting);
+  for (const auto& setting : mark.settings) {
+    const std::string& name = setting.first;
+    const bool is_window = name.starts_with("window-");
+    const bool is_left_out = name == "window-of" || (is_window && !window_of.empty() && !has_window);
+    if (name != "scene" && name != own && !is_left_out) settings.push_back(setting);
+  }
   return settings;
 }
 
@@ -147,10 +154,9 @@ Expected<PageFigures::Json> PageFigures::two_passes(const LiveMark& mark) {
   return Json{{"comparison", keep(key_of(mark, settings), std::move(*made), 0)}};
 }
 
-PageFigures::Json PageFigures::controls_of(const Row& row, const LiveMark& mark) {
+PageFigures::Json PageFigures::controls_of(const Row& row) {
   Json controls = Json::array();
-  // A window is its scene's own.
-  if (!row.scenes.empty() && mark.setting("window-size").empty())
+  if (!row.scenes.empty())
     controls.push_back(choice_facts("scene", "Scene", "The built-in scene that is looked at.", row.scenes));
   for (const std::string_view name : row.settings) {
     const raster::MapSetting* setting = raster::find_setting(name);
@@ -181,7 +187,7 @@ Expected<void> PageFigures::add(const LiveMark& mark) {
     figure["settings"][key] = value;
     drawn_["values"].emplace(key, value);
   }
-  if (Json controls = controls_of(*row, mark); !lab_.empty() && !controls.empty()) {
+  if (Json controls = controls_of(*row); !lab_.empty() && !controls.empty()) {
     figure["controls"] = std::move(controls);
     figure["drawn"] = std::move(drawn_);
   }

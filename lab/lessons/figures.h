@@ -33,7 +33,7 @@ class PageFigures {
   struct Row;
   /// Every figure that the program knows: its name, what makes it, and what it can be computed with again.
   static std::span<const Row> rows();
-  static Json controls_of(const Row& row, const LiveMark& mark);
+  static Json controls_of(const Row& row);
   Expected<Json> bias(const LiveMark& mark);
   Expected<Json> map_size(const LiveMark& mark);
   Expected<Json> two_passes(const LiveMark& mark);

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
+#include "app/console.h"
 #include "lab/lessons/figures.h"
 #include "lab/lessons/flatland.h"
 #include "lab/lessons/lecture.h"
@@ -132,6 +134,21 @@ TEST(Lecture, SaysWhatMayBeLeftOut) {
   ASSERT_TRUE(text.has_value());
   EXPECT_NE(text->find("data-minutes=\"1\">"), std::string::npos);
   EXPECT_NE(text->find("data-minutes=\"2\" data-beyond=\"\">\n\n\nSay it."), std::string::npos) << *text;
+}
+
+// Who chooses another scene in the page has a map that is fitted to that.
+TEST(LessonFigures, AWindowIsItsScenesOwn) {
+  app::Console quiet(true);
+  const auto comparison = [&](const std::string& scene) {
+    const auto json = lab::lessons::compute_figure(
+        lab::lessons::read_mark("two-passes scene=" + scene +
+                                " window-of=teapot window-size=0.6,0.6 passes=0"),
+        quiet);
+    return json ? nlohmann::json::parse(*json)["figures"][0]["data"]["comparison"].get<std::string>()
+                : json.error().message();
+  };
+  EXPECT_EQ(comparison("teapot"), "teapot --window-size 0.6,0.6 --map-size 64/");
+  EXPECT_EQ(comparison("acne-floor"), "acne-floor --map-size 64/");
 }
 
 TEST(LessonsCommand, SaysWhatIsWrong) {

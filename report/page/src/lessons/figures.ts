@@ -60,11 +60,14 @@ async function makeFigure(figure: FigureJson, id: string): Promise<HTMLElement |
 
 /** Where the browser draws the same picture anew, with any setting. */
 function labAddress(lab: string, { scene, ...options }: Record<string, string>): string {
+  // What is the figure's own, and a window that is another scene's, is nothing to the lab.
+  const own = (name: string) =>
+    ["sizes", "passes", "window-of"].includes(name) || (name.startsWith("window-") && options["window-of"] !== scene);
   return (
     lab +
     addressOf({
       scene: scene!,
-      options: new Map(Object.entries(options).filter(([name]) => name !== "sizes")).set("size", `${page.width}x${page.height}`),
+      options: new Map(Object.entries(options).filter(([name]) => !own(name))).set("size", `${page.width}x${page.height}`),
     })
   );
 }
