@@ -30,7 +30,8 @@ find_package(LibArchive REQUIRED)  # gnomon grade alone
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(IMGUI REQUIRED imgui)
 
-# Boost.Beast, for `gnomon serve` alone: headers, and nothing to link.
+# toml++, for `gnomon check` alone, and Boost.Beast, for `gnomon serve` alone: headers, and nothing to link.
+find_path(TOML_HEADERS toml++/toml.h REQUIRED)
 find_path(BEAST_HEADERS boost/beast/http.hpp REQUIRED)
 
 # libdeflate 1.14, Debian 12's, has no CMake file.

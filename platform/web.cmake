@@ -8,7 +8,7 @@ set(GNOMON_SCENE_PLATFORM "${platform}/one_thread.cpp" "${platform}/outside.cpp"
 set(GNOMON_RASTER_PLATFORM)
 set(GNOMON_LAB_PLATFORM "${platform}/turns.cpp")
 # A page and Node have no windows, no other programs and none of the machine's own hardware; all that they have is one program.
-set(GNOMON_COMMANDS_LEFT_OUT merge shimmer sweep)
+set(GNOMON_COMMANDS_LEFT_OUT check diff merge shimmer sweep)
 set(GNOMON_MAIN_ROOMS gnomon::lab)
 set(GNOMON_PROGRAM_ROOMS gnomon_judge_commands gnomon_studies_commands gnomon::lab)
 set(GNOMON_PROGRAM_PLATFORM "${platform}/main.cpp" "${platform}/lab.cpp")

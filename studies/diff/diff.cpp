@@ -203,7 +203,7 @@ std::string too_much(const LightDiff& light, const compare::Threshold& limit) {
   for (const FigureChange& change : light.figures)
     if (counts_for(*limit.measure, *change.figure) && change.worse_by() > limit.limit &&
         (change.spread == unknown_spread || change.trend == Trend::worse))
-      return fmt::format("{}: {} is {} now, {} before", light.name, compare::measure_words(*change.figure),
+      return fmt::format("{}: {} {} now, {} before", light.name, compare::measure_words(*change.figure),
                          compare::figure_text(*change.figure, change.after),
                          compare::figure_text(*change.figure, change.before));
   return {};

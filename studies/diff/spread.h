@@ -1,6 +1,6 @@
 // By how much a figure of two results may differ though nothing got better or worse. Gnomon draws and decides the same each
-// time, so that any change tells something, but for three sources of chance: the samples of a light with size, where
-// two results have others; the rays of technique `rays`; and another OpenGL.
+// time, so that any change tells something. Chance is in three things alone: other samples of a light with size, other rays of
+// technique `rays`, and another OpenGL.
 #pragma once
 
 #include <limits>

@@ -136,8 +136,8 @@ TEST(Documents, CommandsAreTheProgramsOwn) {
   EXPECT_GE(commands.size(), 60u);
   for (const Shown& shown : commands) {
     EXPECT_EQ(parsed(shown.words), 0) << shown.file << ": " << shown.line;
-    const Words without_scene = {"scenes",  "verify", "merge", "bench",
-                                 "shaders", "judge",  "grade", "lessons"};
+    const Words without_scene = {"scenes", "verify", "merge",   "bench", "shaders",
+                                 "judge",  "grade",  "lessons", "diff",  "check"};
     if (shown.words.size() < 2 || shown.words[0].starts_with("-") || shown.words[1] == "--suite" ||
         std::find(without_scene.begin(), without_scene.end(), shown.words[0]) != without_scene.end())
       continue;

@@ -10,6 +10,12 @@ add_dependencies(sweep_program_gl_test gnomon_programs)
 gnomon_test(diff_pixels_test SOURCES diff_pixels_test.cpp LIBS gnomon::studies)
 gnomon_test(diff_program_gl_test SOURCES diff_program_gl_test.cpp annotate_program_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
 add_dependencies(diff_program_gl_test gnomon_programs)
+gnomon_test(check_program_gl_test SOURCES check_program_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
+add_dependencies(check_program_gl_test gnomon_programs)
+# The three files of docs/ci.md.
+add_test(NAME check_docs_test COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/check_docs_test.py" "$<TARGET_FILE:gnomon_program>"
+  "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/check_docs")
+set_tests_properties(check_docs_test PROPERTIES SKIP_RETURN_CODE 77)
 
 gnomon_test(shimmer_gl_test
   SOURCES shimmer_gl_test.cpp shimmer_parts_test.cpp
