@@ -147,7 +147,8 @@ Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, 
   const Stopwatch total;
   if (!named.capture) return fail(named.capture.error());
   ResultOutput output = folder_output(command, named, making.staged.path());
-  output.annotations = &making.annotations;
+  std::vector<Annotation> annotations;
+  output.annotations = &annotations;
   RunFiles files = inputs_of(*named.capture);
   if (const auto fine = check_outputs(output, files); !fine) return fail(fine.error());
   auto judged = judge_one(command, *named.capture, files, console);
@@ -155,7 +156,12 @@ Expected<ExitCode> judge_next(JudgeCommand& command, const NamedCapture& named, 
   judged->comparison.total_ms = total.elapsed_ms();
   making.set.add(named.name, judged->comparison);
   making.inputs.insert(making.inputs.end(), files.inputs().begin(), files.inputs().end());
-  return write_folder(output, judged->comparison, judged->loaded, files, total, console);
+  auto code = write_folder(output, judged->comparison, judged->loaded, files, total, console);
+  for (Annotation& light : annotations) {
+    light.about = named.name;
+    making.annotations.push_back(std::move(light));
+  }
+  return code;
 }
 
 Expected<void> publish_set(SetInTheMaking& making) {

@@ -92,6 +92,7 @@ Expected<void> check_value(const CheckConfig& config, const ConfigValue& value) 
     return fail(config.wrong(
         value, fmt::format("not a switch's value (got {}, allowed true, false)", printable(value.text))));
   std::vector<std::string> words = words_of(value, settings.app);
+  if (studies::is_limit(value.key)) return fail(config.wrong(value, "is a limit, and belongs to limits"));
   if (option == nullptr) words = {"--" + value.key};
   try {
     settings.app.parse(std::move(words));

@@ -72,7 +72,7 @@ double mean_by_rays(const Drawn& a, const Drawn& b) {
     const double noise = noise_step(side, {"absolute"});
     if (noise == 0.0) return 0.0;
     if (!side.light.contains("penumbra")) return unknown_spread;
-    const double pixels = side.light["penumbra"].at("drawn_penumbra_pixels").get<double>();
+    const double pixels = side.light["penumbra"].at("true_penumbra_pixels").get<double>();
     return noise * noise * pixels_together / std::max(pixels, pixels_together);
   };
   return 2.0 * std::sqrt(variance(a) + variance(b));

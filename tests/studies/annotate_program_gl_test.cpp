@@ -1,6 +1,9 @@
 // --annotate of every command that judges: workflow commands on stderr, test cases of JUnit in a file.
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "scene/files/pictures/image_io.h"
 #include "tests/support/app_process.h"
 
 namespace gnomon::app_test {
@@ -53,6 +56,29 @@ TEST(Annotate, SaysWhatADiffAndASweepFind) {
                   out.path() + "/sweep", "--max-error", "0.1%", "--annotate", "github"});
   EXPECT_EQ(sweep.exit_code, 1) << sweep.err;
   expect_parts(sweep.err, {"::error title=fence%2C --max-error 0.1%25::"});
+}
+
+// Captures of one scene are told apart by their names; one that cannot be read is an error.
+TEST(Annotate, SaysEachCapture) {
+  const TemporaryFolder out;
+  for (const auto& [name, seen] : {std::pair{"lit", 1.0f}, {"dark", 0.0f}}) {
+    const std::string picture = out.path() + "/" + name + ".exr";
+    const std::array channels{Channel{"V", std::vector<float>(64 * 36, seen)}};
+    ASSERT_TRUE(write_exr(picture, {64, 36}, channels));
+    write_text(
+        out.path() + "/" + name + ".json",
+        R"({"schema": "gnomon/capture/1", "renderer": {"name": "mine"}, "scene": "acne-floor", "size": [64, 36],
+                   "visibility": ")" +
+            std::string(name) + R"(.exr"})");
+  }
+  const ProcessResult judged = run_gnomon({"judge", "lit.json", "dark.json", "none.json", "--fail-above",
+                                           "20%", "--quiet", "--annotate", "junit:junit.xml"},
+                                          {.folder = out.path()});
+  EXPECT_EQ(judged.exit_code, 3) << judged.err;
+  expect_parts(
+      read_file(out.path() + "/junit.xml"),
+      {"\"gnomon judge\" tests=\"3\" failures=\"1\" errors=\"1\"", "classname=\"lit\" name=\"light sun\"",
+       "classname=\"dark\" name=\"light sun\"", "classname=\"none\" name=\"capture\""});
 }
 
 TEST(Annotate, RefusesOtherForms) {

@@ -137,6 +137,7 @@ TEST_F(CheckProgram, RefusesWhatItDoesNotKnow) {
           "gnomon.toml:4:12: settings.map-sise: unknown option --map-sise; did you mean --map-size?");
   refused("map-size = 512", "resolution = 512", "did you mean --size?");
   refused("map-size = 512", "map-size = \"many\"", "gnomon.toml:4:12: settings.map-size: ");
+  refused("map-size = 512", "fail-above = \"1%\"", "settings.fail-above: is a limit, and belongs to limits");
   refused("snap = true", "snap = \"perhaps\"", "not a switch's value (got perhaps, allowed true, false)");
   refused("fail-worse", "fail-wors", "limits.fail-wors: unknown key; did you mean fail-worse?");
   refused("\"wrong:40%\"", "1", "gnomon.toml:6:14: limits.fail-above: ");

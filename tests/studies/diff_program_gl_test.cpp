@@ -83,6 +83,15 @@ TEST_F(DiffProgram, NoVerdictIsWrong) {
     EXPECT_EQ(diff_json(before, after).value("trend", ""), trend) << before << " and " << after;
 }
 
+// Noise has a spread that is less than what a denoiser is good for.
+TEST_F(DiffProgram, TellsMoreThanNoise) {
+  const Json light = diff_json("rays", "rays-raw")["lights"][0];
+  for (const Json& figure : light["figures"])
+    if (figure["key"] == "error.wrong_fraction" || figure["key"] == "error.mean_absolute") {
+      EXPECT_EQ(figure["trend"], "worse") << figure;
+    }
+}
+
 TEST_F(DiffProgram, RefusesWhatShowsSomethingElse) {
   for (const auto& [after, why] : {std::pair{"other", "another scene"},
                                    {"wide", "other sizes (160x90; 192x90)"},

@@ -8,7 +8,7 @@ add_dependencies(sweep_program_gl_test gnomon_programs)
 
 # Two results of one scene.
 gnomon_test(diff_pixels_test SOURCES diff_pixels_test.cpp LIBS gnomon::studies)
-gnomon_test(diff_program_gl_test SOURCES diff_program_gl_test.cpp annotate_program_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
+gnomon_test(diff_program_gl_test SOURCES diff_program_gl_test.cpp annotate_program_gl_test.cpp LIBS app_process gnomon::scene nlohmann_json::nlohmann_json)
 add_dependencies(diff_program_gl_test gnomon_programs)
 gnomon_test(check_program_gl_test SOURCES check_program_gl_test.cpp LIBS app_process nlohmann_json::nlohmann_json)
 add_dependencies(check_program_gl_test gnomon_programs)
