@@ -63,7 +63,7 @@ TEST(Annotate, SaysEachCapture) {
   const TemporaryFolder out;
   for (const auto& [name, seen] : {std::pair{"lit", 1.0f}, {"dark", 0.0f}}) {
     const std::string picture = out.path() + "/" + name + ".exr";
-    const std::array channels{Channel{"V", std::vector<float>(64 * 36, seen)}};
+    const std::array channels{Channel{"V", std::vector<float>(ImageSize{64, 36}.pixels(), seen)}};
     ASSERT_TRUE(write_exr(picture, {64, 36}, channels));
     write_text(
         out.path() + "/" + name + ".json",
