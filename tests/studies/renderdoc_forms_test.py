@@ -302,6 +302,23 @@ class Moments(unittest.TestCase):
         self.assertLess(found.off, 1e-3)
         self.assertTrue(self.fitted(moments.Content(kind="evsm", exponents=(5.0,)), 1e-3, 0.0).is_believed)
 
+    def test_means_and_deviations_that_a_pass_made_of_depths_are_told(self):
+        depths = np.where(np.add.outer(np.arange(64), np.arange(64)) % 40 < 20, 0.3, 0.7)
+        means = np.mean([np.roll(depths, k, 1) for k in range(-2, 3)], axis=0)
+        spread = np.sqrt(np.maximum(np.mean([np.roll(depths, k, 1) ** 2 for k in range(-2, 3)], axis=0) - means**2, 0))
+        found = moments.find_blurred_content(np.stack([means, spread], -1), depths)
+        self.assertEqual((found.kind, found.has_deviation), ("vsm", True))
+        np.testing.assert_allclose(moments.moments_of(found, np.array([[0.5, 0.1]])), [[0.5, 0.26]])
+        self.assertIsNone(moments.find_blurred_content(np.stack([1 - means, spread], -1), depths))
+        self.assertIsNone(moments.find_blurred_content(means[..., None], depths))
+
+    def test_what_passes_make_of_colours_that_are_no_depths_is_not_believed(self):
+        for exponent, kept in ((None, False), (lookup.Exponent(40.0, 0.99), True)):
+            one = layer(is_colour=True, is_blurred=True)
+            test = decision.Test(lookup.Selection("first", (), 0.0), None, 0.0, None, exponent)
+            decision.believe(SimpleNamespace(), [one], test)
+            self.assertEqual(one.matrix is not None, kept)
+
     def test_a_formula_that_does_not_give_the_picture_is_not_believed(self):
         found = self.fitted(moments.Content(kind="vsm"), 1e-4, 0.0, bent=lambda v: 1 - v)
         self.assertFalse(found.is_believed)

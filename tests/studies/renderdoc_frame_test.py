@@ -327,6 +327,12 @@ class Passes(unittest.TestCase):
                           [draw(10, 5), draw(12, 1, vertices=4), draw(30, 2, [3])], {1: [30], 5: [12]})
         self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in passes.find_maps(frame)], [(5, [10])])
 
+    def test_a_pass_that_blurs_a_map_in_place_is_none_of_its_casters(self):
+        textures = [texture(1, 512, 512), texture(5, 512, 512, False), texture(6, 512, 512, False), texture(2, 64, 36), texture(3, 64, 36, False)]
+        draws = [draw(8, 1, [5], 6), draw(10, 1, [5]), draw(12, 0, [6], 3), draw(14, 1, [5], 3), draw(30, 2, [3])]  # a floor, a box, two blurs
+        found = passes.find_maps(FakeFrame(textures, draws, {5: [12, 30], 6: [14], 1: [12]}))
+        self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in found], [(5, [8, 10])])
+
     def test_map_as_large_as_the_picture_is_found_where_there_is_no_other(self):
         textures = [texture(1, 64, 36), texture(2, 64, 36), texture(3, 64, 36, False)]
         frame = FakeFrame(textures, [draw(10, 1), draw(30, 2, [3])], {1: [30]})

@@ -67,6 +67,8 @@ def believe(found, layers, test):
                f"{100 * test.fitted.wrong:.1f} % of the pixels are off by more than {moments.OFF:g}")
     elif any(layer.is_colour and layer.content is None and not (0 <= layer.texels.min() <= layer.texels.max() <= 1) for layer in layers):
         why = "its colours are no depth, distance, power or exponential of these"
+    elif test.exponent is None and any(layer.is_colour and layer.content is None and layer.is_blurred for layer in layers):
+        why = "what its casters leave is no depth, and passes of its own make something else of it before it is read"
     elif any(fit.is_warped(layer.matrix) for layer in layers):
         why = "a sun's map that is warped towards the eye, which a capture's matrix cannot say"
     elif test.agreement is not None and test.agreement < UNDERSTOOD:

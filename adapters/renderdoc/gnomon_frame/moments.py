@@ -13,6 +13,7 @@ EXACT = {"16": 4e-3}  # how far a texel may be off its law, of the numbers' spre
 FINE = 3e-4
 VARIANCES = (0.0, *10.0 ** np.arange(-8, 0.1, 0.5))
 REDUCTIONS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9)
+SMOOTHED = 0.9  # correlation of means with what they are of
 TOLD = 0.02  # of an empty map's light the least that a full one takes
 BELIEVED = 0.05  # root of the mean square by which the picture may differ from a law that is believed
 OFF, MOST_OFF = 0.3, 0.02  # a pixel that differs by more, and the share of such pixels that is borne
@@ -27,6 +28,7 @@ class Content:
     kind: str = "depths"  # or "vsm", "esm", "evsm", "msm"
     exponents: tuple = ()
     order: tuple = (0, 1, 2, 3)  # channels, in the order of a capture
+    has_deviation: bool = False  # whether the second of vsm is the square root of the variance, as three.js stores it
 
     @property
     def channels(self):
@@ -80,6 +82,21 @@ def find_content(channels, bases, bits):
             if off <= 4 * fine and (rise > 0.5 if base == "depth" else rise * np.ptp(x) > 0.5):
                 return _warped(c, float(rise), float(start), x, fine) if base == "depth" else _of_world_units(base, float(rise), float(start), x)
     return None
+
+
+def moments_of(content, texels):
+    """Channels [.., c] in a capture's order."""
+    out = texels[..., list(content.order[:content.channels])]
+    return np.stack([out[..., 0], out[..., 0] ** 2 + out[..., 1] ** 2], -1) if content.has_deviation else out
+
+
+def find_blurred_content(read, depths):
+    """The Content of texels [rows, columns, channels] that passes of their own made of the casters' depths, or None: means of these, and how far they
+    spread."""
+    if read.shape[-1] < 2 or np.ptp(depths) == 0 or not (0 <= read[..., :2].min() and 0 < np.ptp(read[..., 0]) and read[..., :2].max() <= 1):
+        return None
+    is_mean = np.corrcoef(read[..., 0].ravel(), depths.ravel())[0, 1] > SMOOTHED
+    return Content(kind="vsm", has_deviation=True) if is_mean else None
 
 
 def _powers(content, c, fine):

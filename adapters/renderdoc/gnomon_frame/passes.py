@@ -64,6 +64,13 @@ def _copied_from(frame, texture, written):
     return next((t for t in written if t != texture and copies & set(frame.readers_of(t))), texture)
 
 
+def _blurs(frame, texture, writers, written):
+    """Events of full-screen draws into a map that make its texels anew, from what others made of them: they read what this frame draws."""
+    flat = {w.event for w in writers if w.vertices <= FULL_SCREEN}
+    made = {d.colours[0]: d.event for d in frame.draws if d.colours and d.vertices <= FULL_SCREEN} if flat else {}
+    return {e for t, event in made.items() if t != texture and t in frame.textures for e in frame.readers_of(t) if e in flat and e > event}
+
+
 def _prepass(camera, readers):
     """The camera's draws before the first reader, if these draw the same vertices and nothing else, one by one."""
     of_readers = {d.event for d in readers}
@@ -91,6 +98,10 @@ def _as_map(frame, texture, written, by_event, as_large=False):
     camera = [d for d in written[camera_depth] if d.event <= last.event]
     origin = _copied_from(frame, texture, written)
     casters = [w for w in written[origin] if w.event < last.event]
+    blurs = _blurs(frame, origin, casters, written)
+    casters = [w for w in casters if w.event not in blurs]
+    if not casters:
+        return None
     return MapPasses(origin, casters, readers, picture, camera_depth, camera, _prepass(camera, readers), origin != texture)
 
 

@@ -77,8 +77,7 @@ def measure(frame, found, layers, encoding, others, numbers):
     positions, is_drawn = positions_of(drawn.depth, found.view, visibility.distances(frame, found))
     for layer in layers:
         if layer.content and layer.content.kind != "depths":
-            order = list(layer.content.order[:layer.content.channels])
-            layer.averages = {name: _cut_all(layer, one.read[layer.state.slice])[..., order]
+            layer.averages = {name: moments.moments_of(layer.content, _cut_all(layer, one.read[layer.state.slice]))
                               for name, one in (("drawn", drawn), ("empty", empty), ("full", full))}
     unsaid = visibility.does_not_say(frame, found.passes)
     tried = []
@@ -187,7 +186,10 @@ def _content(frame, found, layer, drawn):
     x, texels = _cut(layer, depths[..., None]), _cut_all(layer, texels)
     held = (x > 0) & (x < 1)
     bits = frame.textures[found.passes.texture].format.lstrip("R")[:2]
-    return moments.find_content(texels[held], _bases(layer, x, held), bits)
+    found = moments.find_content(texels[held], _bases(layer, x, held), bits)
+    if found is None and layer.is_blurred and layer.is_colour:
+        return moments.find_blurred_content(_cut_all(layer, drawn.read[layer.state.slice]), x)
+    return found
 
 
 def _share_ranges(layers, numbers):

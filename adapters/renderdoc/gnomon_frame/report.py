@@ -69,7 +69,7 @@ def findings(frame, found, layers, test):
             out.append(f"{which}casters are moved {by:.4g} world units{_times(layer.normal_shift.angle)} {which_way} their normals (their "
                        f"positions are a projection then, residual {float(np.max(layer.light.residuals)):.1e})")
         if test.form:
-            out += _form(test.form) if k == 0 else []
+            out += _form(test.form) if k == 0 and not test.unread else []
         elif layer.constant and not test.fitted:
             out.append(f"{which}the reader's test lets {layer.constant:.3g} of stored depth pass (found from the picture)")
         if layer.is_held:
