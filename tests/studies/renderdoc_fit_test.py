@@ -43,6 +43,17 @@ class Normals(unittest.TestCase):
                 self.assertAlmostEqual(shift.world, 0.05, delta=1e-4)
                 np.testing.assert_allclose(found.matrix, light, atol=2e-4)
 
+    def test_what_most_vertices_have_tells_where_some_have_other_normals_than_their_triangles(self):
+        views, outward = self.boxes()
+        light = parallel(9, 6, 30) @ TO_SUN
+        own = outward.copy()
+        own[:40] = np.roll(own[:40], 1, axis=1)  # as smooth meshes have
+        clips = drawn(light, views - 0.05 * normals.ANGLES["sine"](normals._cosines(fit.light_place(light), views, own))[:, None] * own)
+        found, shift = normals.find(views, outward, clips, fit.fit_light(views, clips), False)
+        self.assertEqual(shift.angle, "sine")
+        self.assertAlmostEqual(shift.world, 0.05, delta=1e-5)
+        np.testing.assert_allclose(found.matrix, light, atol=2e-4)
+
     def test_nothing_is_found_where_casters_are_moved_otherwise(self):
         views, outward = self.boxes()
         light = parallel(9, 6, 30) @ TO_SUN

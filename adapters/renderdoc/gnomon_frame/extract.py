@@ -110,13 +110,14 @@ def _is_mesh(mesh):
 def _camera_meshes(frame, found):
     """(what the camera draws, each mesh once; the last event that draws one). Of a perspective camera without meshes at one distance,
     among which are those of a flat overlay."""
-    seen = {draw.event for draw in found.prepass}  # going to a draw costs a replay of the frame up to it
+    seen = {draw.event for draw in found.prepass}
     once, last = {}, 0
-    for draw in found.camera:
-        for mesh in _visited(frame, draw) if draw.event not in seen else ():
-            if _is_mesh(mesh):
-                once.setdefault((mesh.source, np.round(mesh.clip[:8], 4).tobytes()), mesh)
-                last = draw.event
+    with frame.without_shading(found.readers):
+        for draw in found.camera:
+            for mesh in _visited(frame, draw) if draw.event not in seen else ():
+                if _is_mesh(mesh):
+                    once.setdefault((mesh.source, np.round(mesh.clip[:8], 4).tobytes()), mesh)
+                    last = draw.event
     meshes = list(once.values())
     return [mesh for mesh in meshes if not is_parallel(mesh.clip)] or meshes, last
 

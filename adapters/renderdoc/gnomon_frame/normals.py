@@ -8,6 +8,8 @@ from . import fit
 
 ANGLES = {"none": np.ones_like, "sine": lambda c: np.sqrt(np.maximum(1 - c * c, 0)), "one_minus_cosine": lambda c: 1 - c}
 STEPS = 6  # in which light, offset and matrix settle
+TRIMMED = 6  # times what is off most is left out
+EXACT = 2e-5  # of the largest number that was drawn: by less 32-bit arithmetic is off
 ENOUGH = 0.1  # of what is left without an offset: a form that leaves more is none
 
 
@@ -71,9 +73,32 @@ def _settled(views, normals, clips, light, factor, reversed_depth):
 
 def find(views, normals, clips, light, reversed_depth):
     """(LightFit, NormalShift) of casters that are no projection by themselves, or None. `light`: as they are fitted without."""
-    best = None
+    tried = []
     for angle, factor in ANGLES.items():
         found, offset = _settled(views, normals, clips, light, factor, reversed_depth)
-        if found.rank == 4 and (best is None or found.residuals.max() < 0.5 * best[0].residuals.max()):
-            best = found, NormalShift(offset, angle)
-    return best if best and best[0].residuals.max() <= ENOUGH * light.residuals.max() else None
+        tried.append((found, NormalShift(offset, angle)))
+    best = _best(tried, ENOUGH * light.residuals.max())
+    of_most = [_of_most(views, normals, clips, one, reversed_depth) for one in tried] if best is None else []
+    is_moved = lambda one: abs(one[1].world) * np.linalg.norm(one[0].matrix[0, :3]) > 10 * EXACT * np.abs(clips).max()
+    return best or _best(filter(is_moved, of_most), EXACT)
+
+
+def _best(tried, most):
+    """That which leaves least, of those that leave no more than `most`; one is taken for a better one than those before it where it leaves half."""
+    best = None
+    for light, shift in tried:
+        if light.rank == 4 and light.residuals.max() <= most and (best is None or light.residuals.max() < 0.5 * best[0].residuals.max()):
+            best = light, shift
+    return best
+
+
+def _of_most(views, normals, clips, best, reversed_depth):
+    """What most vertices have exactly: of smooth meshes whose draws name no normals those of triangles are not all the shader's."""
+    light, shift = best
+    for _ in range(TRIMMED):
+        at = views - shift.world * normals * ANGLES[shift.angle](_cosines(fit.light_place(light.matrix, reversed_depth), views, normals))[:, None]
+        off = np.abs(fit.homogeneous(at) @ light.matrix.T - clips).max(1)
+        kept = off <= max(float(np.median(off)), 0.2 * EXACT * np.abs(clips).max())
+        light, offset = _settled(views[kept], normals[kept], clips[kept], light, ANGLES[shift.angle], reversed_depth)
+        shift = NormalShift(offset, shift.angle)
+    return light, shift

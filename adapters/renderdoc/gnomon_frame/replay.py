@@ -4,7 +4,7 @@ Written for RenderDoc 1.24, which Debian 12 has, on OpenGL and Vulkan; what Dire
 here as well, and has not been run. Events and resources are plain integers outside of this file.
 """
 import os
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -441,6 +441,22 @@ class Frame:
                 self.controller.RemoveReplacement(original)
                 self.controller.FreeTargetResource(new)
             self._event = None
+
+    @contextmanager
+    def without_shading(self, draws):
+        """The frame with fragment shaders of these draws that do nothing. Vertices and states stay, and going to a draw, which replays all that comes
+        before it, costs little."""
+        stage, known = rd.ShaderStage.Fragment, set()
+        with ExitStack() as stack:
+            for draw in draws:  # each next one that is gone to finds those before it replaced
+                shader = self.state(draw.event).shaders.get(stage)
+                if shader not in (None, *known):
+                    known.add(shader)
+                    try:
+                        stack.enter_context(self.replaced({(shader, stage): stand_ins.Source(True, False, plain=True)}))
+                    except FrameError:
+                        break  # it only takes longer
+            yield
 
     def _shader_id(self, shader, stage):
         return next(r.resourceId for r in self.controller.GetResources() if int(r.resourceId) == shader)
