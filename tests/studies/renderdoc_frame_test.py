@@ -333,6 +333,15 @@ class Passes(unittest.TestCase):
         found = passes.find_maps(FakeFrame(textures, draws, {5: [12, 30], 6: [14], 1: [12]}))
         self.assertEqual([(m.texture, [w.event for w in m.writers]) for m in found], [(5, [8, 10])])
 
+    def test_a_reader_that_searches_for_what_casts_is_refused(self):
+        for samplers in ([], [""], ["linear"], ["linear compare"], ["linear compare", ""], ["nearest", "linear"]):
+            passes.refuse_searched(samplers)
+        with self.assertRaisesRegex(FrameError, "contact hardening"):
+            passes.refuse_searched(["linear compare", "nearest"])
+        with self.assertRaisesRegex(FrameError, "contact hardening"):
+            passes.refuse_searched(["linear compare"], ["nearest"])
+        passes.refuse_searched(["linear"], ["linear"])  # moments beside depths
+
     def test_map_as_large_as_the_picture_is_found_where_there_is_no_other(self):
         textures = [texture(1, 64, 36), texture(2, 64, 36), texture(3, 64, 36, False)]
         frame = FakeFrame(textures, [draw(10, 1), draw(30, 2, [3])], {1: [30]})

@@ -10,7 +10,7 @@ from .errors import FrameError
 from .lens import Lens, covers_the_picture, fit_lens, is_parallel
 from .moments import Content
 from .pairing import pair
-from .passes import MapPasses
+from .passes import MapPasses, refuse_searched
 from .reader import CasterShift, ReaderMatrix, caster_shift, find_reader, texture_places, through_model
 
 PROJECTED = 1e-3  # a light's matrix that is off by more is no projection
@@ -227,6 +227,11 @@ def _by_light(layers):
     return lights
 
 
+def _beside(map_passes):
+    """Textures that the casters are drawn into beside the map."""
+    return {texture for draw in map_passes.writers for texture in (*draw.colours, draw.depth)} - {map_passes.texture, 0}
+
+
 def look_at(frame, map_passes):
     """What is known of one map before anything is replaced."""
     view = _view(frame, map_passes)
@@ -234,8 +239,10 @@ def look_at(frame, map_passes):
     if not layers:
         raise FrameError("no mesh is drawn both by the camera and into the shadow map, so that the light cannot be told")
     map_passes.rectangle = view.rectangle
-    last = map_passes.readers[-1].event
-    return Found(map_passes, view, _by_light(layers), frame.reads(last).get(map_passes.texture, ""))
+    bindings = frame.bindings(map_passes.readers[-1].event)
+    samplers = [sampler for texture, sampler in bindings if texture == map_passes.texture]
+    refuse_searched(samplers, [sampler for texture, sampler in bindings if texture in _beside(map_passes)])
+    return Found(map_passes, view, _by_light(layers), samplers[-1] if samplers else "")
 
 
 def read_layers(frame, found, layers):

@@ -118,6 +118,15 @@ def find_maps(frame, colour_maps=False, as_large=False):
     return found
 
 
+def refuse_searched(samplers, beside=()):
+    """A FrameError where a reader compares with the map through one of its samplers and reads depths through another, or what is drawn `beside` it:
+    it looks for what casts, and filters the more the farther that is. Of a full map its filter has another width, so that the replays do not tell
+    the light."""
+    if any("compare" in one for one in samplers) and any(one and "compare" not in one for one in (*samplers, *beside)):
+        raise FrameError("its reader compares depths with the map and reads them, too, as contact hardening (PCSS) does: the map, empty and full, does not "
+                         "tell the light then. Record a frame with another filter")
+
+
 def why_none(frame):
     """The error for a frame without a shadow map."""
     drawn = {d.depth for d in frame.draws} | {c for d in frame.draws for c in d.colours}

@@ -206,19 +206,19 @@ class Frame:
         left = 1 if pipe.IsCaptureGL() or clip.y_up else -1  # the sign of those that turn to the left as they are shown
         return left if front_ccw == (s.cullMode == rd.CullMode.Back) else -left
 
-    def reads(self, event):
-        """{texture: what its sampler does} of the fragment shader's textures; "" where it is not told."""
+    def bindings(self, event):
+        """[(texture, what its sampler does)] of the fragment shader, which may read one by way of several; "" where it is not told."""
         self.go_to(event)
         pipe, stage = self.controller.GetPipelineState(), rd.ShaderStage.Fragment
         shader = pipe.GetShaderReflection(stage)
         if not shader:
-            return {}
+            return []
         if not hasattr(pipe, "GetBindpointMapping"):  # RenderDoc 1.33 and later
-            return {int(d.descriptor.resource): "" for d in pipe.GetReadOnlyResources(stage, True) if int(d.descriptor.resource)}
+            return [(int(d.descriptor.resource), "") for d in pipe.GetReadOnlyResources(stage, True) if int(d.descriptor.resource)]
         places = pipe.GetBindpointMapping(stage).readOnlyResources
         used = {(places[r.bindPoint].bindset, places[r.bindPoint].bind) for r in shader.readOnlyResources if places[r.bindPoint].used}
-        return {int(one.resourceId): self._sampler(pipe, bound.bindPoint) for bound in pipe.GetReadOnlyResources(stage)
-                if (bound.bindPoint.bindset, bound.bindPoint.bind) in used for one in bound.resources if int(one.resourceId)}
+        return [(int(one.resourceId), self._sampler(pipe, bound.bindPoint)) for bound in pipe.GetReadOnlyResources(stage)
+                if (bound.bindPoint.bindset, bound.bindPoint.bind) in used for one in bound.resources if int(one.resourceId)]
 
     def _sampler(self, pipe, place):
         """"linear compare", "nearest compare", "linear" or "nearest"; "" where this API's state is not looked at."""
