@@ -186,13 +186,16 @@ Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
 
 namespace {
 
-/// Edges that were not found are not right to the texel, such as those of a shadow that is blurred until none is left.
 void forget_texels(EdgeStats& edges) {
   edges.mean_texels = edges.rms_texels = edges.mean_absolute_texels =
       std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
+
+void forget_edges_not_found(LightFigures& light) {
+  if (light.edges.edges == 0 && light.error.mean_absolute > 0.0) forget_texels(light.edges);
+}
 
 void forget_texels(LightComparison& light) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -225,7 +228,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.other_sizes = other_sizes_.figures(out.error.mean_absolute);
   static_cast<MapMeasures&>(out) = options_.map != nullptr ? *options_.map : map_;
   if (!in.drawn.has_map()) forget_texels(out);
-  if (out.edges.edges == 0 && out.error.mean_absolute > 0.0) forget_texels(out.edges);
+  forget_edges_not_found(out);
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record());
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
 }

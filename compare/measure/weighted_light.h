@@ -7,9 +7,9 @@
 namespace gnomon::compare {
 
 /// Adds up |W - V0| at receivers that see a part of a light with size. V0 is the share of the light that is seen. W is the share of
-/// its unshadowed light that arrives: samples are weighed by the cosine at the receiver, and of a disc or rectangle by the cosine
-/// at the light over the squared distance (Heitz, Hill and McGuire 2018, "Combining Analytic Direct Illumination and Stochastic
-/// Shadows", equation 2). Both are of the same samples, at some 400 receivers in a hundred thousand of the picture's.
+/// its unshadowed light that arrives: samples are weighed by the cosine at the receiver, those of a disc or rectangle also by the
+/// cosine at the light over the squared distance. That is equation 2 of Heitz, Hill and McGuire 2018, "Combining Analytic Direct
+/// Illumination and Stochastic Shadows". Both are of the same samples, at receivers of some 4096 pixels spread over the picture.
 class WeightedLight {
  public:
   /// Rows of `all_pixels`, the first pixel of which is `first_pixel`; `truth` says who sees a part.
