@@ -7,7 +7,7 @@
 namespace gnomon::compare {
 
 /// Adds up |W - V0| at receivers that see a part of a light with size. V0 is the share of the light that is seen. W is the share of
-/// its unshadowed light that arrives: samples are weighed by the cosine at the receiver, those of a disc or rectangle also by the
+/// its unshadowed light that arrives. Samples are weighed by the cosine at the receiver, those of a disc or rectangle also by the
 /// cosine at the light over the squared distance. That is equation 2 of Heitz, Hill and McGuire 2018, "Combining Analytic Direct
 /// Illumination and Stochastic Shadows". Both are of the same samples, at receivers of some 4096 pixels spread over the picture.
 class WeightedLight {
