@@ -50,12 +50,23 @@ Trend trend_of(double worse_by, double spread) {
   return worse_by > 0.0 ? Trend::worse : Trend::better;
 }
 
+/// How many texels of the map now one of the map before is as wide as; 1 where a width is not known.
+double texels_now(const Drawn& before, const Drawn& after) {
+  const auto width = [](const Drawn& side) {
+    const Json median = side.light.at("map").value("texel_world", Json::object()).value("median", Json());
+    return median.is_number() ? median.get<double>() : 0.0;
+  };
+  return width(before) > 0.0 && width(after) > 0.0 ? width(before) / width(after) : 1.0;
+}
+
 std::vector<FigureChange> figure_changes(const Drawn& before, const Drawn& after) {
   std::vector<FigureChange> changes;
   for (const compare::Figure& figure : compare::figures()) {
     if (figure.measure.name.empty()) continue;
     FigureChange change{&figure, figure.of(before.figures), figure.of(after.figures)};
     if (std::isnan(change.before) || std::isnan(change.after)) continue;
+    if (const double scale = texels_now(before, after); figure.unit == "texels" && scale != 1.0)
+      change.before *= scale, change.in_texels_now = true;
     change.spread = spread(figure, before, after);
     change.trend = trend_of(change.worse_by(), change.spread);
     changes.push_back(change);

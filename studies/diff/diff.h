@@ -26,6 +26,7 @@ struct FigureChange {
   const compare::Figure* figure = nullptr;
   double before = 0.0, after = 0.0, spread = 0.0;
   Trend trend = Trend::same;
+  bool in_texels_now = false;  ///< `before` is converted from texels of another width
 
   /// How much worse it is, in the figure's unit; negative: better.
   double worse_by() const;

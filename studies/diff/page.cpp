@@ -30,7 +30,8 @@ std::string table(const std::string& caption, std::initializer_list<std::string_
       "<div class=\"scroll\" role=\"region\" tabindex=\"0\" "
       "aria-label=\"{0}\"><table><caption>{0}</caption><thead><tr>",
       escaped(caption));
-  for (const std::string_view head : heads) html += fmt::format("<th scope=\"col\">{}</th>", head);
+  for (const std::string_view head : heads)
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", head.empty() ? "" : " class=\"n\"", head);
   return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 

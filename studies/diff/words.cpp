@@ -18,7 +18,9 @@ std::string change_text(const FigureChange& change) {
   if (change.trend == Trend::same) return "as before";
   const std::string by = compare::figure_text(*change.figure, std::abs(change.after - change.before));
   const std::string sign = change.after > change.before ? "+" : "\u2212";
-  if (change.trend != Trend::untold) return fmt::format("{}{}, {}", sign, by, trend_name(change.trend));
+  if (change.trend != Trend::untold)
+    return fmt::format("{}{}, {}{}", sign, by, trend_name(change.trend),
+                       change.in_texels_now ? ", in texels of the map now" : "");
   if (std::isinf(change.spread)) return fmt::format("{}{}; what chance does to it is not known", sign, by);
   return fmt::format("{}{}, no more than the {} of chance", sign, by,
                      compare::figure_text(*change.figure, change.spread));
