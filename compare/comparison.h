@@ -394,8 +394,9 @@ struct LightComparison : LightFigures, LightLists, LightImages {
 
 /// Makes unknown (NaN) what is counted in texels, where there is no map, or it is not known.
 void forget_texels(LightComparison& light);
-/// Edges that were not found are not right to the texel, such as those of a shadow that is blurred until none is left.
-void forget_edges_not_found(LightFigures& light);
+/// Edges are not counted in texels where there is no map, and where the pictures differ but no edge was found in both: those of a
+/// shadow that is blurred until none is left are not right to the texel.
+void forget_unknown_edges(LightFigures& light, bool has_map);
 
 /// A smaller error has no label: not even a picture of eight bits shows it.
 inline constexpr float least_labelled_error = 1.0f / 255.0f;

@@ -268,7 +268,11 @@ Expected<void> measure_subpixels(const CompareCommand& command, const LoadedScen
   const raytrace::Tracer tracer(*loaded.world, options.accel, options.precision);
   compare::SubpixelSums sums(size, side, lights.size());
   const auto finer = judge_view(command, options, loaded, lights, tracer, **renderer, nullptr, &sums);
-  if (!finer) return fail(finer.error());
+  if (!finer) {
+    Error error = finer.error();
+    error.reason = fmt::format("--subpixels {}: {}", command.places_per_pixel, error.reason);
+    return fail(std::move(error));
+  }
   for (std::size_t i = 0; i < lights.size(); ++i) comparison.lights[i].subpixel = sums.figures(i);
   return {};
 }

@@ -77,7 +77,7 @@ Annotation judge_light(const ResultOutput& output, const compare::LightFigures& 
   const std::string limit = compare::threshold_text(threshold);
   if (compare::exceeds(threshold, figures))
     return {.outcome = Outcome::exceeded,
-            .said = fmt::format("{}; that is more than --fail-above {}", words, limit)};
+            .said = compare::excess_words(threshold, figures, "--fail-above " + limit)};
   if (!compare::too_uncertain(threshold, figures)) return {.said = words};
   return {
       .outcome = Outcome::exceeded,

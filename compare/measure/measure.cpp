@@ -245,6 +245,7 @@ LightFigures measure_ends(const LadderInput& in, std::initializer_list<const Fig
     EdgeSums edges;
     add_edges({in.drawn, in.record(), in.traced.receiver, truth, climbed, in.world()}, all, edges);
     light.edges = edges.stats();
+    forget_unknown_edges(light, in.drawn.has_map());
   }
   return light;
 }

@@ -184,24 +184,17 @@ Expected<void> LightSums::add_lists(const LadderInput& in, const Climb& climb) {
   return run_all(steps);
 }
 
-namespace {
-
-void forget_texels(EdgeStats& edges) {
-  edges.mean_texels = edges.rms_texels = edges.mean_absolute_texels =
+void forget_unknown_edges(LightFigures& light, bool has_map) {
+  if (has_map && (light.edges.edges > 0 || light.error.mean_absolute == 0.0)) return;
+  light.edges.mean_texels = light.edges.rms_texels = light.edges.mean_absolute_texels =
       std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
-
-void forget_edges_not_found(LightFigures& light) {
-  if (light.edges.edges == 0 && light.error.mean_absolute > 0.0) forget_texels(light.edges);
 }
 
 void forget_texels(LightComparison& light) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   light.texel_world.fill(unknown);
   light.bias_texel_world = unknown;
-  forget_texels(light.edges);
+  forget_unknown_edges(light, false);
   light.theory = {};
 }
 
@@ -228,7 +221,7 @@ Expected<void> LightSums::finish(const LadderInput& in, LightComparison& out) {
   out.other_sizes = other_sizes_.figures(out.error.mean_absolute);
   static_cast<MapMeasures&>(out) = options_.map != nullptr ? *options_.map : map_;
   if (!in.drawn.has_map()) forget_texels(out);
-  forget_edges_not_found(out);
+  forget_unknown_edges(out, in.drawn.has_map());
   out.bias_curve_withheld = why_no_curve(in.drawn, in.record());
   return out.bias_curve_withheld.empty() ? finish_curve(in, out) : Expected<void>{};
 }

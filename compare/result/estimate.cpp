@@ -52,10 +52,11 @@ Expected<Rates> read_rates(const std::string& file) {
   Rates rates;
   if (const auto name = json.require("name")) rates.name = name->as_string();
   rates.source = json.string("source");
-  rates.texels = json.number("texels_per_second", 0.0, positive_number);
-  rates.lookups = json.number("lookups_per_second", 0.0, positive_number);
-  rates.rays = json.number("rays_per_second", 0.0, positive_number);
-  rates.taps = json.number("taps_per_second", 0.0, positive_number);
+  constexpr NumberRange range{1.0, 1e18};
+  rates.texels = json.number("texels_per_second", 0.0, range);
+  rates.lookups = json.number("lookups_per_second", 0.0, range);
+  rates.rays = json.number("rays_per_second", 0.0, range);
+  rates.taps = json.number("taps_per_second", 0.0, range);
   if (errors.first) return fail(std::move(*errors.first));
   return rates;
 }

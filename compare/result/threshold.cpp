@@ -63,6 +63,15 @@ bool exceeds(const Threshold& t, const LightFigures& f) {
   return !(t.measure->of(f) <= t.limit);
 }
 
+std::string excess_words(const Threshold& t, const LightFigures& f, std::string_view limit) {
+  if (std::isnan(t.measure->of(f)))
+    return fmt::format(
+        "the {} is not known (texels need a map, and edges that both shadows have), so that {} cannot be "
+        "kept",
+        measure_words(*t.measure), limit);
+  return fmt::format("{}; that is more than {}", figure_words(f, *t.measure), limit);
+}
+
 bool says_nothing(const Threshold& t, std::span<const LightFigures> lights) {
   return t.measure->needs != FigureNeeds::film &&
          std::all_of(lights.begin(), lights.end(),

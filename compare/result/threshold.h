@@ -45,6 +45,9 @@ std::uint64_t unknown_pixels(const LightFigures& figures, const Figure& measure)
 bool too_uncertain(const Threshold& threshold, const LightFigures& figures);
 /// The figure is more than the limit, or not known.
 bool exceeds(const Threshold& threshold, const LightFigures& figures);
+/// "0 % wrong, mean error 1.2 %; that is more than --fail-above mean:1%", of figures that exceed it. What is not known exceeds it,
+/// too, and is said to. `limit`: the limit as it was given.
+std::string excess_words(const Threshold& threshold, const LightFigures& figures, std::string_view limit);
 /// No light has a lit or shadowed pixel, not even an uncertain one: the figures say nothing. Of films never.
 bool says_nothing(const Threshold& threshold, std::span<const LightFigures> lights);
 /// Something was compared, and no light exceeds the threshold or is too uncertain. One of several lights may face away

@@ -82,8 +82,10 @@ bool hides_soft_errors(const LightFigures& light) {
   return left_out > 0 && noticed * left_out >= left_out + light.error.fractional;
 }
 
-std::string uncertain_part(const LightFigures& light) {
+std::string uncertain_part(const Comparison& c, const LightComparison& light) {
   const PixelCounts& p = light.pixels;
+  if (true_record(c, light).samples == 1)
+    return "One sample of the light is no truth, and how far off it is cannot be told: use more --samples.";
   if (p.uncertain == 0) return {};
   return fmt::format(
       "{} more ({}) {} uncertain: the truth there lies within its own error bound.{}", grouped(p.uncertain),
@@ -231,7 +233,7 @@ std::string Verdict::whole() const {
 Verdict verdict_on(const Comparison& c, const LightComparison& light) {
   if (light.pixels.compared == 0)
     return {.error = nothing_compared(light.pixels, c.world->scene->lights[light.light].type)};
-  const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(light);
+  const std::string error = error_part(light, *c.measure), uncertain = uncertain_part(c, light);
   if (c.judged) return {error, judged_advice(*c.judged, light, *c.measure), uncertain, uncertain};
   const BiasAdvice bias = advised_bias(c, light);
   const bool told = counts_biases(light, *c.measure) || !c.tried.empty() || c.measure == find_measure("mean");

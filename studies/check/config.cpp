@@ -30,6 +30,7 @@ class Reader {
   Expected<CheckConfig> read(const toml::table& file) {
     if (auto known = only(file, "", top_keys); !known) return fail(known.error());
     if (const toml::node* node = file.get("baseline")) {
+      if (!node->is_string()) return wrong(*node, "baseline", "not a folder (allowed a text)");
       auto folder = word(*node, "baseline", "baseline");
       if (!folder) return fail(folder.error());
       config_.baseline = beside(folder->text);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -174,8 +175,9 @@ bool is_done(const CheckCommand& command, const CheckRun& run, const std::vector
   if (!result.is_object()) return false;
   std::string line = "gnomon";
   for (const std::string& word : words) line += " " + shell_quoted(word);
-  const auto scene = read_file(run.scene);
-  return result.value("command", "") == line && result.value("version", "") == compare::program_version() &&
+  const auto scene = read_file(run.scene), page = read_file(command.folder + "/" + run.name + "/report.html");
+  return page && result.value("command", "") == line &&
+         result.value("version", "") == compare::program_version() &&
          (!scene || result.value("/scene/sha256"_json_pointer, "") == sha256_hex(*scene));
 }
 
@@ -189,10 +191,14 @@ std::string why_of(const std::string& said, std::string_view part) {
   return why.starts_with(prefix) ? why.substr(prefix.size()) : why;
 }
 
+std::string baseline_of(const CheckCommand& command, const CheckConfig& config) {
+  return command.baseline.empty() ? config.baseline.value_or("") : command.baseline;
+}
+
 /// What changed since the baseline, and whether that is too much.
 Expected<void> compare_with_baseline(const CheckCommand& command, const CheckConfig& config,
                                      const CheckRun& run, CheckedRun& checked) {
-  const std::string baseline = command.baseline.empty() ? config.baseline.value_or("") : command.baseline;
+  const std::string baseline = baseline_of(command, config);
   if (baseline.empty()) return {};
   const std::string before = baseline + "/" + run.name, after = command.folder + "/" + run.name;
   const auto there = is_there(before + "/result.json");
@@ -200,6 +206,7 @@ Expected<void> compare_with_baseline(const CheckCommand& command, const CheckCon
   if (!*there) return {};
   studies::DiffOptions options;
   options.fail_worse = *limit_of(config, run, "fail-worse");
+  options.if_changed = "make the baseline anew";
   auto diff = studies::diff_results(before, after, options);
   if (!diff) return fail(diff.error());
   {
@@ -249,17 +256,18 @@ Expected<void> hold_limit(const CheckCommand& command, const CheckConfig& config
   const std::string result = command.folder + "/" + run.name + "/result.json";
   const auto lights = studies::light_figures(result);
   if (!lights) return fail(lights.error());
-  checked.worst =
-      *std::ranges::max_element(*lights, {}, [](const auto& light) { return light.error.wrong_fraction; });
   const auto limit = limit_of(config, run, "fail-above");
+  const compare::Figure& measure = *limit ? *(*limit)->measure : compare::wrong_and_mean();
+  checked.worst = *std::ranges::max_element(
+      *lights, {}, [&](const auto& light) { return compare::ranked(measure.of(light)); });
   if (!*limit || compare::is_kept(**limit, *lights)) return {};
   checked.outcome = CheckedRun::Outcome::exceeded, checked.code = 1;
   const bool by_error =
       std::ranges::any_of(*lights, [&](const auto& light) { return compare::exceeds(**limit, light); });
   checked.why =
-      by_error ? fmt::format("{} is more than {}", compare::figure_words(*checked.worst, *(*limit)->measure),
-                             compare::threshold_text(**limit))
-               : fmt::format("too many pixels are uncertain for {}", compare::threshold_text(**limit));
+      by_error
+          ? compare::excess_words(**limit, *checked.worst, "fail-above " + compare::threshold_text(**limit))
+          : fmt::format("too many pixels are uncertain for {}", compare::threshold_text(**limit));
   return {};
 }
 
@@ -309,6 +317,18 @@ std::vector<Annotation> annotations_of(const std::vector<CheckedRun>& runs) {
   return all;
 }
 
+/// A baseline that is written over says nothing of what changed.
+Expected<void> check_baseline(const CheckCommand& command, const CheckConfig& config) {
+  namespace fs = std::filesystem;
+  const std::string baseline = baseline_of(command, config);
+  std::error_code none;
+  if (baseline.empty() || fs::weakly_canonical(baseline, none) != fs::weakly_canonical(command.folder, none))
+    return {};
+  return fail(ErrorKind::usage, fmt::format("-o: this is the baseline, with which nothing could be compared "
+                                            "then; --baseline none makes it anew (got {})",
+                                            command.folder));
+}
+
 Expected<ExitCode> run_check(const CheckCommand& command) {
   Console console(command.quiet);
   auto config = studies::read_check_config(command.config);
@@ -317,6 +337,7 @@ Expected<ExitCode> run_check(const CheckCommand& command) {
     if (auto fine = check_run(*config, run); !fine) return fail(fine.error());
   if (auto chosen = choose_runs(command, *config); !chosen) return fail(chosen.error());
   if (command.explain) return print_data(explain(*config)), ExitCode::done;
+  if (auto apart = check_baseline(command, *config); !apart) return fail(apart.error());
   RunFiles files;
   files.reads(command.config);
   files.writes("--json", command.json);

@@ -89,6 +89,8 @@ struct DiffOptions {
   const compare::Figure* measure = &compare::wrong_and_mean();  ///< whose change is the verdict
   std::optional<compare::Threshold> fail_worse{};
   bool changed_scene = false;  ///< its file may have changed in between
+  std::string_view if_changed =
+      "--changed-scene compares them all the same";  ///< what helps where it may not
 };
 
 /// `before`, `after`: result.json, or the folder that it is in. ErrorKind::bad_input: one cannot be read, or they cannot

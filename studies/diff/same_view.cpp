@@ -15,15 +15,14 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
 }
 
-std::string other_scene(const Json& a, const Json& b, bool changed_scene) {
+std::string other_scene(const Json& a, const Json& b, const DiffOptions& options) {
   const std::string was = a.at("path").get<std::string>(), is = b.at("path").get<std::string>();
   if (a.at("sha256") == b.at("sha256") && a.at("triangles") == b.at("triangles") &&
       a.at("shapes") == b.at("shapes"))
     return {};
   if (a.at("name") != b.at("name")) return fmt::format("they show another scene ({}; {})", was, is);
-  if (changed_scene) return {};
-  return fmt::format("the scene has changed in between ({}; {}); --changed-scene compares them all the same",
-                     was, is);
+  if (options.changed_scene) return {};
+  return fmt::format("the scene has changed in between ({}; {}); {}", was, is, options.if_changed);
 }
 
 std::string size_text(const Json& size) {
@@ -55,11 +54,11 @@ void note_other(std::vector<std::string>& notes, std::string_view what, const Js
 
 /// What was measured of a map, not asked for.
 bool is_measured(const std::string& key) {
-  return std::ranges::any_of(
-      std::initializer_list<const char*>{"window", "texel_world", "times_ms", "_per_ray", "taps",
-                                         "silhouette", "receivers", "history_bytes", "rays.rays",
-                                         "minimum_variance", "_world"},
-      [&](const char* part) { return key.find(part) != std::string::npos; });
+  return key == "rays.rays" || std::ranges::any_of(
+                                   std::initializer_list<const char*>{
+                                       "window", "texel_world", "times_ms", "_per_ray", "taps", "silhouette",
+                                       "receivers", "history_bytes", "minimum_variance", "_world"},
+                                   [&](const char* part) { return key.find(part) != std::string::npos; });
 }
 
 void add_settings(std::vector<std::pair<std::string, Json>>& out, const std::string& key, const Json& value) {
@@ -84,10 +83,10 @@ bool follows(const std::string& key, const std::vector<std::pair<std::string, Js
 
 }  // namespace
 
-std::string why_not_comparable(const Json& a, const Json& b, bool changed_scene) {
+std::string why_not_comparable(const Json& a, const Json& b, const DiffOptions& options) {
   if (drawn_by(a) != drawn_by(b))
     return fmt::format("{} drew one of them, {} the other", drawn_by(a), drawn_by(b));
-  if (std::string why = other_scene(a.at("scene"), b.at("scene"), changed_scene); !why.empty()) return why;
+  if (std::string why = other_scene(a.at("scene"), b.at("scene"), options); !why.empty()) return why;
   if (a.at("size") != b.at("size"))
     return fmt::format("their pictures have other sizes ({}; {})", size_text(a.at("size")),
                        size_text(b.at("size")));

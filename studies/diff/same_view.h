@@ -10,9 +10,9 @@
 namespace gnomon::studies {
 
 /// Why two documents cannot be compared; empty where they can. A scene is known by its file's bytes, whatever it is
-/// called. `changed_scene`: these may differ.
+/// called. With DiffOptions::changed_scene these may differ.
 std::string why_not_comparable(const nlohmann::ordered_json& before, const nlohmann::ordered_json& after,
-                               bool changed_scene);
+                               const DiffOptions& options);
 
 /// What a reader of the verdict should know: another program, another machine, another precision.
 std::vector<std::string> notes_on(const nlohmann::ordered_json& before, const nlohmann::ordered_json& after);

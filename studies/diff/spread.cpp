@@ -18,15 +18,15 @@ bool draws_rays(const Drawn& side) {
   const Json& map = side.light.at("map");
   return map.contains("rays") && map["rays"].is_object();
 }
+/// Of one sample nothing tells how far off it is.
+bool has_one_sample(const Drawn& side) {
+  return side.light.value("shadow_samples", 0) == 1;
+}
 bool has_other_samples(const Drawn& a, const Drawn& b) {
   if (!is_soft(a) && !is_soft(b)) return false;
   return a.result.at("seed") != b.result.at("seed") ||
          a.light.value("shadow_samples", 0) != b.light.value("shadow_samples", 0);
 }
-bool has_other_gl(const Drawn& a, const Drawn& b) {
-  return a.result.at("gl") != b.result.at("gl");
-}
-
 double compared(const Drawn& side) {
   return double(std::max<std::uint64_t>(side.figures.pixels.compared, 1));
 }
@@ -98,6 +98,10 @@ bool has_other_rays(const Drawn& a, const Drawn& b) {
 
 }  // namespace
 
+bool has_other_gl(const Drawn& before, const Drawn& after) {
+  return before.result.at("gl") != after.result.at("gl");
+}
+
 std::vector<std::string> chances(const Drawn& before, const Drawn& after) {
   std::vector<std::string> said;
   if (has_other_samples(before, after))
@@ -115,7 +119,7 @@ std::vector<std::string> chances(const Drawn& before, const Drawn& after) {
 }
 
 double spread(const compare::Figure& figure, const Drawn& before, const Drawn& after) {
-  if (has_other_gl(before, after)) return unknown_spread;
+  if (has_other_gl(before, after) || has_one_sample(before) || has_one_sample(after)) return unknown_spread;
   const bool samples = has_other_samples(before, after), rays = has_other_rays(before, after);
   if (!samples && !rays) return 0.0;
   if (&figure == compare::find_measure("wrong"))

@@ -22,6 +22,8 @@ struct Drawn {
   compare::LightFigures figures;         ///< those that are pooled, of it
 };
 
+bool has_other_gl(const Drawn& before, const Drawn& after);
+
 /// Sentences for people: what chance there is between the two. None: the same setting gives the same numbers.
 std::vector<std::string> chances(const Drawn& before, const Drawn& after);
 

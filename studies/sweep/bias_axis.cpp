@@ -193,7 +193,7 @@ BiasTable compare_biases(const LowerClimb& lower, const compare::LadderInput& in
     axis.terms(place).write_to(lights[i]);
     lights[i].detachment = axis.detachment(place);
     lights[i].edges = edges.at(static_cast<float>(asked[i]));
-    compare::forget_edges_not_found(lights[i]);
+    compare::forget_unknown_edges(lights[i], true);
     lights[i].bias_curve = compare::draw_bias_curve(gaps, drawn.bias_texel_world, asked[i],
                                                     drawn.best_bias.constant_world, bias_curve_points);
   });

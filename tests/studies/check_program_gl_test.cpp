@@ -102,6 +102,28 @@ TEST_F(CheckProgram, HoldsEverySceneAgainstItsLimitsAndTheBaseline) {
               fs::exists(at("out/check/fence/report.html")));
 }
 
+TEST_F(CheckProgram, WritesOverNoBaselineUnasked) {
+  const ProcessResult over = check({"fence", "-o", "baseline"});
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_NE(over.err.find("--baseline none"), std::string::npos) << over.err;
+  EXPECT_EQ(check({"fence", "-o", "baseline", "--baseline", "none", "--quiet"}).exit_code, 0);
+}
+
+// Of two lights the one that exceeds the limit, whichever has more wrong pixels.
+TEST_F(CheckProgram, NamesTheFiguresThatExceedTheLimit) {
+  Json scene = Json::parse(read_file(at("scenes/penumbra.json")), nullptr, false, true);
+  scene["lights"].push_back({{"type", "point"}, {"position", {1.5, 4, 1}}, {"intensity", 20}});
+  write_text(at("scenes/two.json"), scene.dump());
+  write_text(at("gnomon.toml"), R"([[scene]]
+file = "scenes/two.json"
+settings = { size = "96x54", technique = "pcf", map-size = 256 }
+limits = { fail-above = "mean:1%" }
+)");
+  ASSERT_EQ(check().exit_code, 1);
+  const Json run = document()["runs"][0];
+  EXPECT_GT(run["mean_absolute"].get<double>(), 0.01) << run;
+}
+
 TEST_F(CheckProgram, GoesOnWhereItWasInterrupted) {
   ASSERT_EQ(check({"fence", "box", "--quiet"}).exit_code, 0);
   const std::string before = read_file(at("out/check/fence/result.json"));

@@ -127,6 +127,11 @@ TEST_F(DiffProgram, FailsWhereItIsWorseThanTheLimit) {
   EXPECT_EQ(worse.exit_code, 1);
   EXPECT_NE(worse.err.find("more than --fail-worse 0.1% allows"), std::string::npos) << worse.err;
   EXPECT_EQ(diff("fence", "coarse", {"--quiet", "--fail-worse", "50%"}).exit_code, 0);
+  EXPECT_EQ(diff("rays", "rays-1", {"--quiet", "--fail-worse", "flip:0.00001"}).exit_code, 0)
+      << "chance fails nothing";
+  const ProcessResult unknown = diff("pcf", "rays", {"--fail-worse", "edge:0.1texel"});
+  EXPECT_EQ(unknown.exit_code, 3) << "few rays have no texels";
+  EXPECT_NE(unknown.err.find("not in both results"), std::string::npos) << unknown.err;
   // Both in texels of the map now: by a finer map's own texels its edges would be called worse.
   EXPECT_EQ(diff("fence", "fine", {"--quiet", "--fail-worse", "edge:0.1texel"}).exit_code, 0);
   EXPECT_EQ(diff("fence", "coarse", {"--quiet", "--fail-worse", "edge:0.1texel"}).exit_code, 1);
