@@ -394,8 +394,8 @@ struct LightComparison : LightFigures, LightLists, LightImages {
 
 /// Makes unknown (NaN) what is counted in texels, where there is no map, or it is not known.
 void forget_texels(LightComparison& light);
-/// Edges are not counted in texels where there is no map. Nor are they where the pictures differ but no edge was found in both:
-/// those of a shadow that is blurred until none is left are not right to the texel.
+/// Edges are not counted in texels where there is no map. Nor are they where the pictures differ but no edge was found in both.
+/// A shadow that is blurred until no edge is left is not right to the texel.
 void forget_unknown_edges(LightFigures& light, bool has_map);
 
 /// A smaller error has no label: not even a picture of eight bits shows it.
