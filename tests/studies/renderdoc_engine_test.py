@@ -20,6 +20,8 @@ def skip(why):
 for package, code in (("python3-numpy", "import numpy"), ("python3-renderdoc", "import renderdoc")):
     if subprocess.run([PYTHON, "-c", code], stderr=subprocess.DEVNULL).returncode:
         skip(f"{package} is not installed")
+# Two that look for a free display at once may take the same one: each test begins to look at a number of its own.
+XVFB = ("xvfb-run", "-a", "-n", str(200 + os.getpid() % 5000))
 QML = "/usr/lib/qt6/bin/qml"
 LAVAPIPE = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
 HAS_GODOT = bool(shutil.which("godot3"))
@@ -98,7 +100,7 @@ def record(name, *words):
 def record_and_said(name, *words):
     """(The frame's path, what the recorder says.) Our own window stays the process that it is where that variable is set."""
     path = os.path.join(FOLDER, name + ".rdc")
-    done = run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc/record.py"), "-o", path,
+    done = run(*XVFB, "-s", "-screen 0 640x480x24", PYTHON, "-B", os.path.join(SOURCE, "adapters/renderdoc/record.py"), "-o", path,
                "--wait", LONGEST_S, *words)
     return path, done.stderr
 
@@ -244,7 +246,7 @@ class Godot(unittest.TestCase):
     def test_the_scene_script_writes_a_capture_by_itself(self):
         folder = os.path.join(FOLDER, "alone")
         os.makedirs(folder, exist_ok=True)
-        run("xvfb-run", "-a", "-s", "-screen 0 640x480x24", "godot3", "--path", os.path.join(SOURCE, "adapters/godot"), f"--scene={scene()}",
+        run(*XVFB, "-s", "-screen 0 640x480x24", "godot3", "--path", os.path.join(SOURCE, "adapters/godot"), f"--scene={scene()}",
             f"--output={folder}")
         run(GNOMON, "judge", "alone/capture.json", "-o", "alone-verdict")
         with open(os.path.join(FOLDER, "alone-verdict/result.json"), encoding="utf-8") as file:
