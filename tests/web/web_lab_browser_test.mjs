@@ -260,10 +260,11 @@ async function timesTheShadowsOnTheGpu() {
   await close(software);
 }
 
+/** It is lost with the wish: lost before, the page may say so before it hears of the wish. */
 async function saysThatTheContextIsLost() {
   const page = await openWith(`const get = OffscreenCanvas.prototype.getContext;
     OffscreenCanvas.prototype.getContext = function (...words) { return (self.drawing = get.apply(this, words)); };
-    addEventListener("message", ({ data }) => { if (data.name === "pixel") self.drawing.getExtension("WEBGL_lose_context")?.loseContext(); });`);
+    addEventListener("message", ({ data }) => { if (data.name === "pixel") self.asked = true; else if (self.asked) self.drawing.getExtension("WEBGL_lose_context")?.loseContext(); });`);
   await done(page);
   await page.locator(".stage").click({ position: { x: 100, y: 100 } });
   await page.locator("#lab-pixel h2").waitFor();
